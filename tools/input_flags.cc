@@ -32,15 +32,15 @@ DEFINE_string(log, "", "`FILES` logs A[,B..]: CSV, ROS 2 bags, .npz, .mat");
 DEFINE_string(validate, "", "`FILES` logs held out to check the result");
 DEFINE_string(torque_constants, "",
               "`K1,K2..` per joint, N m/A: torque = constant x gear ratio x "
-              "current");
+              "current; N m/V of voltages");
 DEFINE_string(torque_constants_stddev, "",
               "`SHARE` of each joint's torque by which its scale may be off, a "
-              "standard deviation; default: .05 for currents, .02 for torques, "
-              "0 for logs of armcal simulate");
+              "standard deviation; default: .05 for currents, .1 for voltages, "
+              ".02 for torques, 0 for logs of armcal simulate");
 DEFINE_string(gear_ratios, "", "`N1,N2..` per joint; default: 1");
 DEFINE_string(torque_kind, "auto",
               "what the log's torque is: auto, link, motor (motor side, times "
-              "gear ratio), current, command");
+              "gear ratio), current, command, voltage");
 DEFINE_string(topics, "",
               "`A,SIGNAL:B..` topics of ROS 2 bags, as in "
               "/joint_states,effort:/torques");
@@ -70,7 +70,8 @@ const FlagChoices<TorqueKind> kTorqueKinds("torque_kind",
                                             {"link", TorqueKind::kLink},
                                             {"motor", TorqueKind::kMotor},
                                             {"current", TorqueKind::kCurrent},
-                                            {"command", TorqueKind::kCommand}});
+                                            {"command", TorqueKind::kCommand},
+                                            {"voltage", TorqueKind::kVoltage}});
 const FlagChoices<std::optional<RobustLoss>> kLosses(
     "loss", {{"auto", std::nullopt},
              {LossName(RobustLoss::kHuber), RobustLoss::kHuber},

@@ -11,7 +11,6 @@
 #include "calib/logs/clock_text.h"
 #include "calib/logs/held_values.h"
 #include "calib/logs/velocity_delay.h"
-#include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/option_name.h"
@@ -40,7 +39,7 @@ class Inspector {
     result_.whole = !reader.Read(1, &more);
     result_.spelling = reader.spelling();
     result_.torque_source = reader.torque_source();
-    result_.currents = reader.currents_without_constants();
+    result_.unscaled = reader.unscaled_drives();
     result_.rows = log_.size();
     if (log_.size() < 3) {
       throw InputError(log.name, "", std::to_string(log_.size()) + " rows",
@@ -55,7 +54,7 @@ class Inspector {
     result_.findings = AuditChannels(robot_, log_, result_.stamps);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
-    AddCurrents();
+    AddUnscaled();
     AddVelocityDelays();
     AddClock();
     result_.duration = log_.t[log_.size() - 1];
@@ -156,10 +155,11 @@ class Inspector {
       return;
     }
     if (log_.tau.size() == 0) {
-      result_.coverage.reason = result_.currents.empty()
+      const UnscaledDrives& drives = result_.unscaled;
+      result_.coverage.reason = drives.columns.empty()
                                     ? "no torque is logged"
-                                    : "its currents (" + result_.currents +
-                                          ") need " +
+                                    : "its " + drives.what + " (" +
+                                          drives.columns + ") need " +
                                           OptionName("torque_constants");
       return;
     }
@@ -193,16 +193,18 @@ class Inspector {
     return tells;
   }
 
-  // What scale currents have, no motion tells: twice the constants and twice
-  // the inertias draw the same.
-  void AddCurrents() {
-    if (result_.currents.empty()) return;
+  // What scale currents or voltages have, no motion tells: twice the constants
+  // and twice the inertias draw the same.
+  void AddUnscaled() {
+    const UnscaledDrives& drives = result_.unscaled;
+    if (drives.columns.empty()) return;
     result_.findings.push_back(
-        {"unscaled_currents",
-         "motor currents are logged, and nothing says what torque they make",
-         "columns " + result_.currents +
+        {"unscaled_" + drives.what,
+         "motor " + drives.what +
+             " are logged, and nothing says what torque they make",
+         "columns " + drives.columns +
              "; nothing is asked of them, as no motion tells their scale",
-         ConstantsWanted() + " (armcal calibrate)"});
+         drives.wanted + " (armcal calibrate)"});
   }
 
   void AddVelocityDelays() {

@@ -12,6 +12,7 @@
 #include "calib/logs/inspection_finding.h"
 #include "calib/logs/sample_clock.h"
 #include "model/log_files/log_reader.h"
+#include "model/log_files/torque_columns.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -27,7 +28,7 @@ struct LogInspection {
   bool rebuilds_time = false;  // the log fits better by the clock's time
   std::string spelling;        // LogReader's
   std::string torque_source;   // empty: none, but commands or currents
-  std::string currents;        // without constants, as LogReader names them
+  UnscaledDrives unscaled;     // currents or voltages without constants
   Eigen::VectorXd travel;      // per joint, rad or m
   Eigen::VectorXd top_speed;   // rad/s or m/s
   // Rms of command minus position, rad or m; empty where no command is logged.

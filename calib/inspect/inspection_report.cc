@@ -63,9 +63,9 @@ json CoverageJson(const LogCoverage& coverage) {
 std::string TorqueText(const LogInspection& log) {
   if (!log.torque_source.empty()) return log.torque_source;
   std::string text = "none";
-  if (!log.currents.empty()) {
-    text += "; currents (" + log.currents + ") that need " +
-            OptionName("torque_constants");
+  if (!log.unscaled.columns.empty()) {
+    text += "; " + log.unscaled.what + " (" + log.unscaled.columns +
+            ") that need " + OptionName("torque_constants");
   }
   if (log.tracking_rms.size() > 0) {
     text += "; commands (qref) that " + OptionName("controller") +

@@ -33,7 +33,7 @@ BagLog::BagLog(const std::string& path, const LineOptions& options)
     : path_(path),
       joint_names_(options.joint_names),
       chosen_(options.topics),
-      effort_(options.effort_is_current ? Signal::kCurrent : Signal::kEffort) {
+      effort_(options.effort) {
   all_states_ = std::all_of(chosen_.begin(), chosen_.end(),
                             [](const LogTopic& t) { return !!t.signal; });
 }
@@ -60,6 +60,7 @@ std::vector<BagLog::Field> BagLog::FieldsOf(const Role& role,
       return {{*role.signal, &JointState::velocity}};
     case Signal::kEffort:
     case Signal::kCurrent:
+    case Signal::kVoltage:
       return {{*role.signal, &JointState::effort}};
     default:
       return {};

@@ -51,7 +51,8 @@ void BagSource::ChooseColumns(const std::vector<JointSeries>& series) {
 void BagSource::NoteEfforts() {
   std::vector<std::string> without = joint_names_;
   for (const Column& column : columns_) {
-    if (column.signal == Signal::kEffort || column.signal == Signal::kCurrent) {
+    if (column.signal == Signal::kEffort || column.signal == Signal::kCurrent ||
+        column.signal == Signal::kVoltage) {
       without[column.joint].clear();
     }
   }

@@ -24,7 +24,7 @@ constexpr double kSamePosture = 1e-6;  // rad or m
 // A table with its header read.
 struct Table {
   Table(const std::string& path, const std::vector<std::string>& joint_names)
-      : source(OpenLines(path, {joint_names, {}, false})) {
+      : source(OpenLines(path, {joint_names, {}, Signal::kEffort})) {
     if (!source->NextLine(&header)) {
       throw InputError(path, "", "", "the file is empty");
     }

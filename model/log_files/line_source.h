@@ -35,7 +35,8 @@ class LineSource {
 struct LineOptions {
   std::vector<std::string> joint_names;  // the robot's, base to tip
   std::vector<LogTopic> topics;          // of bags; empty: all of JointState
-  bool effort_is_current = false;        // of JointState, as UR robots have it
+  // What a JointState's effort is: of UR robots a current.
+  Signal effort = Signal::kEffort;
 };
 
 }  // namespace armcal

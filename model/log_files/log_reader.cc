@@ -40,7 +40,7 @@ struct LogReader::Impl {
       : path(log.name),
         joints(static_cast<int>(options.joint_names.size())),
         source(OpenLines(log, {options.joint_names, options.topics,
-                               options.torque_kind == TorqueKind::kCurrent})),
+                               EffortIn(options.torque_kind)})),
         columns(path, Header(), options.joint_names, source->About()),
         time_column(columns.FindTime(&time_decimals)),
         row(path, columns, time_column) {
@@ -69,10 +69,10 @@ struct LogReader::Impl {
       KnowScale(kTorqueScaleStddev, options);
       return;
     }
-    currents_without_constants = CurrentsWithoutConstants(columns, options);
+    unscaled = FindUnscaledDrives(columns, options);
     const bool commands_do = options.commands_do && qref != kUnused;
     if (commands_do && LacksTorque(columns, options)) return;
-    if (options.currents_do && !currents_without_constants.empty()) return;
+    if (options.currents_do && !unscaled.columns.empty()) return;
     const TorqueColumns torque = FindTorqueColumns(path, columns, options);
     torque_source = torque.source;
     KnowScale(torque.scale_stddev, options);
@@ -273,7 +273,8 @@ struct LogReader::Impl {
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
   int qref = kUnused;
   int temperature = kUnused;
-  std::string torque_source, currents_without_constants;
+  std::string torque_source;
+  UnscaledDrives unscaled;
   double torque_constants_stddev = 0;
   std::shared_ptr<const ReconstructedTorque> reconstructed;
   std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
@@ -316,8 +317,8 @@ const std::string& LogReader::torque_source() const {
   return impl_->torque_source;
 }
 
-const std::string& LogReader::currents_without_constants() const {
-  return impl_->currents_without_constants;
+const UnscaledDrives& LogReader::unscaled_drives() const {
+  return impl_->unscaled;
 }
 
 double LogReader::torque_constants_stddev() const {

@@ -9,22 +9,25 @@
 
 namespace armcal {
 
+struct UnscaledDrives;
+
 // Reads a CSV or gzipped CSV log block by block in constant memory, another
 // format (open_lines.h) held in it, or one that is in memory.
 //
 // Header: `t` (or time, timestamp, __time) and per joint either by number
-// (1-based) q1 qd1 qdd1 tau1 i1 qref1 temp1 or by name shoulder/position|
-// velocity|acceleration|effort|current|reference|temperature, also with a
-// leading path
+// (1-based) q1 qd1 qdd1 tau1 i1 u1 qref1 temp1 or by name shoulder/position|
+// velocity|acceleration|effort|current|voltage|reference|temperature, also with
+// a leading path
 // (/joint_states/shoulder/position). A unit suffix is honoured: [s] [ms] [us]
 // [ns] [rad] [deg] [rad/s] [deg/s] [rad/s^2] [deg/s^2] [m] [mm] [m/s] [mm/s]
-// [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]; without one the unit is SI.
-// An effort in A is a current. Other spellings are understood, too, where time
-// and all positions come out (column_spelling.h). Order never matters, names
-// do; columns that are not used are not parsed. Separators , ; or TAB; CRLF, a
-// byte order mark, quoted names and a # before the header are accepted. Times
-// may be large (epoch): they are kept relative to the first row's without loss.
-// Equal times pass.
+// [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]
+// [V] [mV]; without one the unit is SI.
+// An effort in A is a current, in V a voltage. Other spellings are understood,
+// too, where time and all positions come out (column_spelling.h). Order never
+// matters, names do; columns that are not used are not parsed. Separators , ;
+// or TAB; CRLF, a byte order mark, quoted names and a # before the header are
+// accepted. Times may be large (epoch): they are kept relative to the first
+// row's without loss. Equal times pass.
 //
 // Throws InputError with file, row, column, value and expectation: a missing or
 // duplicate column, a log that numbers more joints than the robot has, a field
@@ -49,9 +52,8 @@ class LogReader {
   // How the columns are called, where not as here: LogColumns::Spelling().
   std::string spelling() const;
 
-  // The columns of currents that have no constants, "i1 to i6"; empty where
-  // torques are read, or where there are none.
-  const std::string& currents_without_constants() const;
+  // Currents or voltages that have no constants; none where torques are read.
+  const UnscaledDrives& unscaled_drives() const;
 
   // Relative standard deviation of its scale, each joint's: as the options say,
   // else 0 for a simulated log and by the torque's kind for any other.

@@ -13,11 +13,12 @@ namespace armcal {
 
 // Where the joint torque comes from.
 enum class TorqueKind {
-  kAuto,     // tau columns; where there are none, currents
+  kAuto,     // tau columns; where there are none, currents; else voltages
   kLink,     // tau columns, on the joint side, as they are
   kMotor,    // tau columns on the motor side, times the gear ratio
   kCurrent,  // current columns, times torque constant and gear ratio
   kCommand,  // tau columns that hold commanded torques
+  kVoltage,  // motor voltages, times torque per volt and gear ratio
 };
 
 // Torques that were reconstructed for a log that has none, N m or N, a row for
@@ -37,21 +38,22 @@ struct ReconstructedTorque {
 struct LogReaderOptions {
   std::vector<std::string> joint_names;  // the robot's, base to tip
   TorqueKind torque_kind = TorqueKind::kAuto;
-  std::vector<double> torque_constants;  // N m/A per joint; empty: not given
+  // N m/A per joint, of voltages N m/V at standstill; empty: not given.
+  std::vector<double> torque_constants;
   // Relative standard deviation of each joint's torque scale: a factor
   // that is fixed for the robot. Not given: see torque_columns.h.
   std::optional<double> torque_constants_stddev = 0;
   std::vector<double> gear_ratios;  // per joint; empty: 1
   std::vector<LogTopic> topics;     // of a bag (line_source.h)
   bool need_torque = true;
-  // Where torque is needed: a log will do that has neither torques nor currents
-  // (nor --torque_constants for these) but the commands of all joints.
+  // Where torque is needed: a log will do that has no torques, nor currents or
+  // voltages (nor torque constants for these), but the commands of all joints.
   bool commands_do = false;
   // By path: what such logs have instead.
   std::map<std::string, std::shared_ptr<const ReconstructedTorque>>
       reconstructed_torque;
-  // Where torque is needed: a log will do whose motor currents have no
-  // constants. It has no torque then; LogReader names the currents.
+  // Where torque is needed: a log will do whose motor currents or voltages
+  // have no constants. It has no torque then; LogReader names them.
   bool currents_do = false;
   // By path: the time of each row, s since the first, for a log whose stamps
   // are known to be wrong.

@@ -199,7 +199,7 @@ void CheckValues(const std::string& path, const PoseMeasurements& measured) {
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names) {
   const std::unique_ptr<LineSource> source =
-      OpenLines(path, {joint_names, {}, false});
+      OpenLines(path, {joint_names, {}, Signal::kEffort});
   std::string_view line;
   if (!source->NextLine(&line)) {
     throw InputError(path, "", "", "the file is empty");

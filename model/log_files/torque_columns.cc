@@ -39,18 +39,51 @@ void MultiplyBy(const std::vector<double>& factors,
   for (size_t i = 0; i < factors.size(); ++i) (*columns)[i].scale *= factors[i];
 }
 
-TorqueColumns FromCurrents(const LogColumns& columns,
-                           const LogReaderOptions& options) {
+// What drives a motor, and becomes its torque by a constant.
+struct Drive {
+  Signal signal;
+  std::string what;     // "currents"
+  std::string unit;     // "A"
+  double scale_stddev;  // relative
+};
+
+// Of a current the torque is K_t i. Of a voltage it is, without the winding's
+// inductance (a millisecond and less),
+//   tau = K_t / R u - K_t^2 / R qd,
+// the second term, the back-EMF's, being a part of the joint's viscous
+// friction: a model with that needs the first term only.
+Drive DriveOf(TorqueKind kind) {
+  if (kind == TorqueKind::kVoltage) {
+    return {Signal::kVoltage, "voltages", "V", kVoltageScaleStddev};
+  }
+  return {Signal::kCurrent, "currents", "A", kCurrentScaleStddev};
+}
+
+// What to give for what drives the motors. A known payload tells the scale of
+// currents only.
+std::string ConstantsWanted(const Drive& drive) {
+  std::string wanted = OptionName("torque_constants") + "=K1,.. in N m/" +
+                       drive.unit + ", one per joint";
+  if (drive.signal == Signal::kCurrent) {
+    wanted += ", or " + OptionName("payload_mass") + " and " +
+              OptionName("payload_log") + " to estimate them";
+  }
+  return wanted;
+}
+
+TorqueColumns FromDrives(const Drive& drive, const LogColumns& columns,
+                         const LogReaderOptions& options) {
   const bool efforts = columns.HasAny(Signal::kEffort);
   TorqueColumns torque;
   torque.columns = columns.Find(
-      Signal::kCurrent,
-      efforts ? "; where effort columns hold currents, say so with [A]" : "");
+      drive.signal, efforts ? "; where effort columns hold " + drive.what +
+                                  ", say so with [" + drive.unit + "]"
+                            : "");
   MultiplyBy(options.torque_constants, &torque.columns);
   MultiplyBy(options.gear_ratios, &torque.columns);
-  torque.scale_stddev = kCurrentScaleStddev;
-  torque.source =
-      "currents times " + FormatAll(options.torque_constants) + " N m/A";
+  torque.scale_stddev = drive.scale_stddev;
+  torque.source = drive.what + " times " + FormatAll(options.torque_constants) +
+                  " N m/" + drive.unit;
   if (!options.gear_ratios.empty()) {
     torque.source += " times gear ratios " + FormatAll(options.gear_ratios);
   }
@@ -72,11 +105,14 @@ TorqueKind ChooseKind(const std::string& file, const LogColumns& columns,
                       const LogReaderOptions& options) {
   if (columns.HasAll(Signal::kEffort)) return TorqueKind::kLink;
   if (columns.HasAll(Signal::kCurrent)) return TorqueKind::kCurrent;
+  if (columns.HasAll(Signal::kVoltage)) return TorqueKind::kVoltage;
   // Incomplete columns: Find() will say which are missing.
   if (columns.HasAny(Signal::kEffort)) return TorqueKind::kLink;
   if (columns.HasAny(Signal::kCurrent)) return TorqueKind::kCurrent;
+  if (columns.HasAny(Signal::kVoltage)) return TorqueKind::kVoltage;
   std::string instead = "; or currents (i1 or " + options.joint_names[0] +
-                        "/current, ..) with " + OptionName("torque_constants");
+                        "/current, ..) or voltages (u1, ..) with " +
+                        OptionName("torque_constants");
   if (columns.HasAll(Signal::kReference)) {
     instead += "; or " + OptionName("controller") +
                ", under which calibrate and verify simulate how the "
@@ -112,25 +148,30 @@ std::string ScaleText(double scale_stddev) {
 
 bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
   if (columns.HasAny(Signal::kEffort)) return false;
-  return !columns.HasAny(Signal::kCurrent) || options.torque_constants.empty();
+  const bool has_drives =
+      columns.HasAny(Signal::kCurrent) || columns.HasAny(Signal::kVoltage);
+  return !has_drives || options.torque_constants.empty();
 }
 
-std::string CurrentsWithoutConstants(const LogColumns& columns,
-                                     const LogReaderOptions& options) {
-  const bool wants_currents = options.torque_kind == TorqueKind::kCurrent ||
-                              (options.torque_kind == TorqueKind::kAuto &&
-                               !columns.HasAny(Signal::kEffort));
-  if (!wants_currents || !options.torque_constants.empty() ||
-      !columns.HasAll(Signal::kCurrent)) {
-    return "";
+UnscaledDrives FindUnscaledDrives(const LogColumns& columns,
+                                  const LogReaderOptions& options) {
+  if (!options.torque_constants.empty()) return {};
+  for (const TorqueKind kind : {TorqueKind::kCurrent, TorqueKind::kVoltage}) {
+    const bool wanted = options.torque_kind == kind ||
+                        (options.torque_kind == TorqueKind::kAuto &&
+                         !columns.HasAny(Signal::kEffort));
+    const Drive drive = DriveOf(kind);
+    if (wanted && columns.HasAll(drive.signal)) {
+      return {columns.Named(drive.signal), drive.what, ConstantsWanted(drive)};
+    }
   }
-  return columns.Named(Signal::kCurrent);
+  return {};
 }
 
-std::string ConstantsWanted() {
-  return OptionName("torque_constants") +
-         "=K1,.. in N m/A, one per joint, or " + OptionName("payload_mass") +
-         " and " + OptionName("payload_log") + " to estimate them";
+Signal EffortIn(TorqueKind kind) {
+  const bool is_drive =
+      kind == TorqueKind::kCurrent || kind == TorqueKind::kVoltage;
+  return is_drive ? DriveOf(kind).signal : Signal::kEffort;
 }
 
 TorqueColumns FindTorqueColumns(const std::string& file,
@@ -145,16 +186,19 @@ TorqueColumns FindTorqueColumns(const std::string& file,
     case TorqueKind::kCommand:
       return {columns.Find(Signal::kEffort), "commanded tau columns"};
     case TorqueKind::kCurrent:
-      if (options.torque_constants.empty()) {
-        const std::string names = columns.Named(Signal::kCurrent);
-        throw InputError(file, "", "",
-                         "the torque comes from currents" +
-                             (names.empty() ? "" : " (" + names + ")") +
-                             ", its scale is not observable from them alone: "
-                             "expected " +
-                             ConstantsWanted());
+    case TorqueKind::kVoltage: {
+      const Drive drive = DriveOf(kind);
+      if (!options.torque_constants.empty()) {
+        return FromDrives(drive, columns, options);
       }
-      return FromCurrents(columns, options);
+      const std::string names = columns.Named(drive.signal);
+      throw InputError(file, "", "",
+                       "the torque comes from " + drive.what +
+                           (names.empty() ? "" : " (" + names + ")") +
+                           ", its scale is not observable from them alone: "
+                           "expected " +
+                           ConstantsWanted(drive));
+    }
     default:
       return FromTorques(columns, options);
   }

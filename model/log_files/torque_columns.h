@@ -14,6 +14,11 @@ namespace armcal {
 // has made of currents with constants that its maker identified: some per cent.
 constexpr double kCurrentScaleStddev = .05;
 constexpr double kTorqueScaleStddev = .02;
+// Voltages: torque per volt is the constant over the winding's resistance.
+// Beside the constant's 5 % copper is 6 % more resistant for 15 K (0.39 % / K),
+// and as much again may be said of its resistance and of what leads and
+// brushes take: sqrt(.05^2 + .06^2 + .06^2).
+constexpr double kVoltageScaleStddev = .1;
 
 // The columns that give the joint torque once multiplied by their scale, which
 // holds unit, torque constant and gear ratio.
@@ -34,16 +39,22 @@ TorqueColumns FindTorqueColumns(const std::string& file,
 std::string ScaleText(double scale_stddev);
 
 // Whether there is nothing in the log to make a torque of: no torques, and no
-// currents or no constants for them. A part of the joints is no nothing.
+// currents or voltages or no constants for them. A part of the joints is no
+// nothing.
 bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options);
 
-// The columns of currents that a torque would be made of if there were
-// constants for them: "i1 to i6"; empty where there is nothing to wait for.
-std::string CurrentsWithoutConstants(const LogColumns& columns,
-                                     const LogReaderOptions& options);
+// Columns of currents or voltages that a torque would be made of if there were
+// constants for them.
+struct UnscaledDrives {
+  std::string columns;  // "i1 to i6"; empty: there is nothing to wait for
+  std::string what;     // "currents" or "voltages"
+  std::string wanted;   // what to give for them, a phrase for messages
+};
+UnscaledDrives FindUnscaledDrives(const LogColumns& columns,
+                                  const LogReaderOptions& options);
 
-// What to give for such currents, a phrase for messages.
-std::string ConstantsWanted();
+// What a JointState's effort is where the torque is of this kind.
+Signal EffortIn(TorqueKind kind);
 
 // Throws InputError where torque constants or gear ratios are given and are not
 // one non-zero finite number per joint.

@@ -107,12 +107,12 @@ GROUPS = [Group(
         "holds tau1; not recognised: 'other'"),
     Row("no torque", headed("t,q1,q2,a,b"),
         "log.csv: row 1: no torque: missing tau1 or joint1/effort, tau2 or joint2/effort; "
-        "or currents (i1 or joint1/current, ..) with --torque_constants; not recognised: "
-        "'a', 'b'"),
+        "or currents (i1 or joint1/current, ..) or voltages (u1, ..) with "
+        "--torque_constants; not recognised: 'a', 'b'"),
     Row("commands without a controller", headed("t,q1,q2,qref1,qref2"),
         "log.csv: row 1: no torque: missing tau1 or joint1/effort, tau2 or joint2/effort; "
-        "or currents (i1 or joint1/current, ..) with --torque_constants; or --controller, "
-        "under which calibrate and verify simulate how the log's commands (qref) are "
+        "or currents (i1 or joint1/current, ..) or voltages (u1, ..) with "
+        "--torque_constants; or --controller, under which calibrate and verify simulate how the log's commands (qref) are "
         "followed"),
     Row("position missing", headed("t,q1,x,tau1,tau2"),
         "log.csv: row 1: missing q2 or joint2/position; the robot has 2 joints, the log "

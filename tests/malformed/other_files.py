@@ -353,7 +353,8 @@ COMMANDS = Group(
          for k in range(1200))}, [
     Row("neither torque nor command", replaced("log.csv", "qref", "other"),
         "log.csv: row 1: no torque: missing tau1 or joint1/effort, tau2 or joint2/effort; or "
-        "currents (i1 or joint1/current, ..) with --torque_constants; not recognised: 'other1', "
+        "currents (i1 or joint1/current, ..) or voltages (u1, ..) with --torque_constants; "
+        "not recognised: 'other1', "
         "'other2'"),
 ])
 

@@ -77,7 +77,8 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
   }
   Understand(OwnNames(names_));
   const auto drives = [this] {
-    return HasAny(Signal::kEffort) || HasAny(Signal::kCurrent);
+    return HasAny(Signal::kEffort) || HasAny(Signal::kCurrent) ||
+           HasAny(Signal::kVoltage);
   };
   const bool moves = HasPositionsInTime();
   if (moves && drives()) return;
@@ -125,8 +126,10 @@ void LogColumns::Classify(int index) {
 }
 
 void LogColumns::Add(Match match, std::string_view unit) {
-  if (match.signal == Signal::kEffort && FindUnit(Signal::kCurrent, unit)) {
-    match.signal = Signal::kCurrent;
+  if (match.signal == Signal::kEffort) {
+    for (const Signal other : {Signal::kCurrent, Signal::kVoltage}) {
+      if (FindUnit(other, unit)) match.signal = other;
+    }
   }
   matches_.push_back(match);
 }

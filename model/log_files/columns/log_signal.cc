@@ -136,6 +136,7 @@ const SignalNames& NamesOf(Signal signal) {
        "reference",
        {{"rad", 1}, {"deg", kDegree}, {"m", 1}, {"mm", 1e-3}}},
       {"temp", "temperature", {{"degC", 1}, {"deg C", 1}, {"C", 1}}},
+      {"u", "voltage", {{"V", 1}, {"mV", 1e-3}}},
   };
   return (*names)[static_cast<int>(signal)];
 }

@@ -6,9 +6,9 @@
 
 namespace armcal {
 
-// What a log may hold for each joint. kCurrent is a motor current, also where
-// an effort column says so by its unit ("shoulder/effort [A]", as UR robots
-// report).
+// What a log may hold for each joint. kCurrent is a motor current and kVoltage
+// what drives a motor, also where an effort column says so by its unit
+// ("shoulder/effort [A]", as UR robots report).
 // kReference is the position that a controller was told to take.
 enum class Signal {
   kPosition,
@@ -17,13 +17,14 @@ enum class Signal {
   kEffort,
   kCurrent,
   kReference,
-  kTemperature
+  kTemperature,
+  kVoltage
 };
 
 constexpr Signal kSignals[] = {Signal::kPosition,     Signal::kVelocity,
                                Signal::kAcceleration, Signal::kEffort,
                                Signal::kCurrent,      Signal::kReference,
-                               Signal::kTemperature};
+                               Signal::kTemperature,  Signal::kVoltage};
 
 struct Unit {
   std::string_view name;

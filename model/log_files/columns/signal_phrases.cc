@@ -42,7 +42,9 @@ const std::map<std::string, Signal>& OtherPhrases() {
       {"pos ref", Signal::kReference},
       {"pos des", Signal::kReference},
       {"pos cmd", Signal::kReference},
-      {"temperatures", Signal::kTemperature}};
+      {"temperatures", Signal::kTemperature},
+      {"voltages", Signal::kVoltage},
+      {"motor voltage", Signal::kVoltage}};
   return *kPhrases;
 }
 
@@ -59,8 +61,9 @@ const std::map<std::string, std::string>& OtherUnits() {
       {"radian", "rad"},     {"radians", "rad"},    {"degree", "deg"},
       {"degrees", "deg"},    {"\u00b0", "deg"},     {"\u00b0/s", "deg/s"},
       {"rad/s2", "rad/s^2"}, {"deg/s2", "deg/s^2"}, {"amp", "A"},
-      {"amps", "A"},         {"\u00b0c", "degC"},   {"sec", "s"},
-      {"secs", "s"},         {"seconds", "s"}};
+      {"amps", "A"},         {"volt", "V"},         {"volts", "V"},
+      {"\u00b0c", "degC"},   {"sec", "s"},          {"secs", "s"},
+      {"seconds", "s"}};
   return *kUnits;
 }
 

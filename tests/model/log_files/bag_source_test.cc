@@ -128,8 +128,8 @@ TEST(BagSource, SaysWhatIsWrong) {
       "joint2)";
   const std::string no_effort =
       "FILE: row 1: no torque: missing tau1 or joint1/effort, tau2 or "
-      "joint2/effort; or currents (i1 or joint1/current, ..) with "
-      "`torque_constants`; " +
+      "joint2/effort; or currents (i1 or joint1/current, ..) or "
+      "voltages (u1, ..) with `torque_constants`; " +
       has + "; the effort of joint1, joint2 is empty or NaN in all messages";
   EXPECT_EQ(RefusalOf("nan_effort.mcap"), no_effort);
   EXPECT_EQ(RefusalOf("empty_effort.mcap"), no_effort);

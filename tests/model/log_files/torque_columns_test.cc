@@ -74,16 +74,41 @@ TEST(TorqueColumns, CurrentsAreMultipliedByConstants) {
             "currents times 2 3 N m/A: 1*2 2*3");
 }
 
+TEST(TorqueColumns, VoltagesAreMultipliedByTorquePerVolt) {
+  EXPECT_EQ(Find("t,u1,u2 [mV]", Options(TorqueKind::kAuto, {.5, 2}, {10, 1})),
+            "voltages times 0.5 2 N m/V times gear ratios 10 1: 1*5 2*0.002");
+  EXPECT_EQ(Find("t,shoulder/voltage,elbow/effort [V],q1",
+                 Options(TorqueKind::kAuto, {2, 3})),
+            "voltages times 2 3 N m/V: 1*2 2*3");
+  // Torques come first, then currents.
+  EXPECT_EQ(Find("t,u1,u2,i1,i2", Options(TorqueKind::kAuto, {2, 3})),
+            "currents times 2 3 N m/A: 3*2 4*3");
+  EXPECT_EQ(Find("t,u1,u2,i1,i2", Options(TorqueKind::kVoltage, {2, 3})),
+            "voltages times 2 3 N m/V: 1*2 2*3");
+  // A known payload tells no voltages' scale.
+  EXPECT_EQ(Find("t,u1,u2", Options(TorqueKind::kAuto)),
+            "FILE: the torque comes from voltages (u1 to u2), its scale is not "
+            "observable from them alone: expected `torque_constants`=K1,.. in "
+            "N m/V, one per joint");
+  EXPECT_EQ(Find("t,u1,tau1,tau2", Options(TorqueKind::kVoltage, {2, 3})),
+            "FILE: row 1: missing u2 or elbow/voltage; the robot has 2 joints, "
+            "the log holds u1; where effort columns hold voltages, say so with "
+            "[V]");
+}
+
 TEST(TorqueColumns, SayWhatIsMissing) {
-  EXPECT_EQ(Find("t,q1,q2", Options(TorqueKind::kAuto)),
-            "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
-            "elbow/effort; or currents (i1 or shoulder/current, ..) with "
-            "`torque_constants`");
-  EXPECT_EQ(Find("t,q1,q2,qref1,qref2", Options(TorqueKind::kAuto)),
-            "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
-            "elbow/effort; or currents (i1 or shoulder/current, ..) with "
-            "`torque_constants`; or `controller`, under which calibrate and "
-            "verify simulate how the log's commands (qref) are followed");
+  EXPECT_EQ(
+      Find("t,q1,q2", Options(TorqueKind::kAuto)),
+      "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
+      "elbow/effort; or currents (i1 or shoulder/current, ..) or voltages "
+      "(u1, ..) with `torque_constants`");
+  EXPECT_EQ(
+      Find("t,q1,q2,qref1,qref2", Options(TorqueKind::kAuto)),
+      "FILE: row 1: no torque: missing tau1 or shoulder/effort, tau2 or "
+      "elbow/effort; or currents (i1 or shoulder/current, ..) or voltages "
+      "(u1, ..) with `torque_constants`; or `controller`, under which "
+      "calibrate and verify simulate how the log's commands (qref) are "
+      "followed");
   EXPECT_EQ(Find("t,i1,i2", Options(TorqueKind::kAuto)),
             "FILE: the torque comes from currents (i1 to i2), its scale is not "
             "observable from them alone: expected `torque_constants`=K1,.. in "
@@ -105,12 +130,17 @@ TEST(TorqueColumns, SayWhatIsMissing) {
             "columns");
 }
 
-TEST(TorqueColumns, NamesCurrentsThatWaitForConstants) {
+TEST(TorqueColumns, NamesDrivesThatWaitForConstants) {
   const auto names = [](const std::string& header,
                         const LogReaderOptions& options) {
-    return CurrentsWithoutConstants(
-        LogColumns("FILE", header, options.joint_names), options);
+    return FindUnscaledDrives(LogColumns("FILE", header, options.joint_names),
+                              options)
+        .columns;
   };
+  EXPECT_EQ(names("t,u1,u2", Options(TorqueKind::kAuto)), "u1 to u2");
+  EXPECT_EQ(names("t,u1,u2,i1,i2", Options(TorqueKind::kAuto)), "i1 to i2");
+  EXPECT_EQ(names("t,u1,u2,tau1,tau2", Options(TorqueKind::kAuto)), "");
+  EXPECT_EQ(names("t,u1", Options(TorqueKind::kAuto)), "");
   EXPECT_EQ(names("t,i1,i2", Options(TorqueKind::kAuto)), "i1 to i2");
   EXPECT_EQ(names("t,shoulder/effort [A],elbow/effort [A]",
                   Options(TorqueKind::kAuto)),

@@ -25,7 +25,7 @@ def calibrate(
     validate_crop: Optional[Range] = None,
     select: bool = False,
     segment: float = 5.0,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -90,14 +90,15 @@ def calibrate(
                          most, as few as tell nearly all
     segment              float, s: length of segments for --select (default 5)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -175,7 +176,7 @@ def verify(
     bandwidth: Optional[float] = None,
     controller: Optional[Path] = None,
     seed: int = 0,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -201,14 +202,15 @@ def verify(
                          per joint, slower where that rings
     seed                 int: of everything that is drawn at random (default 0)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -245,7 +247,7 @@ def diagnose(
     camera_on: Literal['tool', 'world'] = 'tool',
     length_trust: float = 0.01,
     angle_trust: float = 0.02,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -305,14 +307,15 @@ def diagnose(
                          angles where they are refined, and of the base's tilt,
                          rad (default 0.02)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -412,7 +415,8 @@ def simulate(
     torque_delay         float: of the log's torques behind positions, s
                          (default 0)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     temperature          bool: log the joints' temperatures too
     jitter               float: of the sampling instants, standard deviation, s
                          (default 0)
@@ -456,7 +460,7 @@ def excite(
     pose_noise: Union[float, Sequence[float]] = (0.0001, 0.0001),
     bandwidth: Optional[float] = None,
     crop: Optional[Range] = None,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -527,14 +531,15 @@ def excite(
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -554,7 +559,7 @@ def inspect(
     fix: bool = False,
     export: Optional[Union[str, Sequence[str]]] = None,
     controller: Optional[Path] = None,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -575,14 +580,15 @@ def inspect(
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint, slower where that rings
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -605,7 +611,7 @@ def reduce(
     date: Optional[str] = None,
     bandwidth: Optional[float] = None,
     crop: Optional[Range] = None,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -638,14 +644,15 @@ def reduce(
     crop                 Range: of --log to use, s since its first row;
                          default: all (standstill is left out by itself)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques
@@ -716,7 +723,7 @@ def compare(
     progress: Progress = None,
     crop: Optional[Range] = None,
     bandwidth: Optional[float] = None,
-    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor'] = 'auto',
+    torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
@@ -740,14 +747,15 @@ def compare(
                          are; default: 10 times the motion's frequency, 8 to 20
                          Hz (watch: 20)
     torque_kind          str: what the log's torque is: auto, link, motor
-                         (motor side, times gear ratio), current, command
-                         (default auto)
+                         (motor side, times gear ratio), current, command,
+                         voltage (default auto)
     torque_constants     Union[float, Sequence[float]]: per joint, N m/A:
-                         torque = constant x gear ratio x current
+                         torque = constant x gear ratio x current; N m/V of
+                         voltages
     torque_constants_stddev float: of each joint's torque by which its scale
                          may be off, a standard deviation; default: .05 for
-                         currents, .02 for torques, 0 for logs of armcal
-                         simulate
+                         currents, .1 for voltages, .02 for torques, 0 for logs
+                         of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques

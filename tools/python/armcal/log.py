@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 # Signals of a log, with their names in an .npz.
 _SIGNALS = {
     "q": "q", "qd": "qd", "qdd": "qdd", "tau": "tau", "current": "i",
-    "qref": "qref", "temperature": "temp",
+    "voltage": "u", "qref": "qref", "temperature": "temp",
 }
 
 
@@ -27,6 +27,7 @@ class Log:
     qd, qdd      (N, n) rad/s and rad/s^2, m/s and m/s^2
     tau          (N, n) N m or N, on the joint side
     current      (N, n) A, of the motors, instead of tau
+    voltage      (N, n) V, of the motors, instead of both
     qref         (N, n) rad or m, what the controller was to follow
     temperature  (N, n) deg C
     simulated    says that tau is exact, as in logs of armcal simulate
@@ -41,15 +42,16 @@ class Log:
     qdd: Optional[Array]
     tau: Optional[Array]
     current: Optional[Array]
+    voltage: Optional[Array]
     qref: Optional[Array]
     temperature: Optional[Array]
     simulated: bool
     name: str
 
     def __init__(self, *, t: Any, q: Any, tau: Any = None, qd: Any = None,
-                 qdd: Any = None, current: Any = None, qref: Any = None,
-                 temperature: Any = None, simulated: bool = False,
-                 name: str = "log") -> None:
+                 qdd: Any = None, current: Any = None, voltage: Any = None,
+                 qref: Any = None, temperature: Any = None,
+                 simulated: bool = False, name: str = "log") -> None:
         if not name or set(name) & set("/,\0"):
             raise ValueError(f"name: found {name!r}, expected a text without "
                              "slashes and commas")
@@ -59,7 +61,7 @@ class Log:
         if self.t.ndim != 1:
             raise ValueError(f"t: found shape {self.t.shape}, expected (N,)")
         given = {"q": q, "qd": qd, "qdd": qdd, "tau": tau, "current": current,
-                 "qref": qref, "temperature": temperature}
+                 "voltage": voltage, "qref": qref, "temperature": temperature}
         joints: Union[int, str] = "n"
         for signal, values in given.items():
             array = None if values is None else np.array(values, dtype=float)
@@ -102,7 +104,7 @@ def read_log(path: Union[str, "os.PathLike[str]"], robot: _armcal.Robot, *,
              torque: bool = True, **options: Any) -> Log:
     """Reads a log of any format that armcal knows, at most 2^20 rows.
 
-    Times are since its first row; currents become torques.
+    Times are since its first row; currents and voltages become torques.
 
     torque   False: torques may be missing, and are not read
     options  torque_kind, torque_constants, gear_ratios as of calibrate
