@@ -93,6 +93,13 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
       {"ci95", {JsonNumber(found.ci95[0]), JsonNumber(found.ci95[1])}},
       {"time_windows", windows}};
   if (!contacts.empty()) effect["contacts"] = contacts;
+  for (const JointAgreement::JointSize& one : found.joint_sizes) {
+    effect["joint_sizes"].push_back(
+        {{"joint", diagnosis.joints[one.joint].name},
+         {"joint_index", one.joint + 1},
+         {"value", JsonNumber(one.value)},
+         {"stddev", JsonNumber(one.stddev)}});
+  }
   return effect;
 }
 

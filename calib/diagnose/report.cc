@@ -95,6 +95,25 @@ std::string EffectLines(const FoundEffect& found,
   return text + Others(found, diagnosis);
 }
 
+// What joints of a robot that one effect is to be of have it to be, each by
+// itself, and what that may be instead.
+std::string Disagreement(const FoundEffect& found,
+                         const GapDiagnosis& diagnosis) {
+  if (found.joint_sizes.empty()) return "";
+  std::vector<std::string> sizes;
+  for (const JointAgreement::JointSize& one : found.joint_sizes) {
+    sizes.push_back(diagnosis.joints[one.joint].name + " " +
+                    ValueText(one.value, one.stddev) + " " +
+                    found.estimates[0].unit);
+    if (&one != &found.joint_sizes.back()) sizes.back() += ",";
+  }
+  std::string text = Wrapped("         its joints disagree:", sizes);
+  if (!found.effect->if_joints_disagree.empty()) {
+    text += "         which may be " + found.effect->if_joints_disagree + "\n";
+  }
+  return text;
+}
+
 // What the data ask for as well, but no name is probable enough for: no part of
 // any figure here.
 std::string Unnamed(const GapDiagnosis& diagnosis) {
@@ -108,7 +127,7 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
     } else if (std::isfinite(found.removed_percent)) {
       text += ": held out, it removes nothing";
     }
-    text += "\n";
+    text += "\n" + Disagreement(found, diagnosis);
     if (found.one_of_few) text += Others(found, diagnosis);
   }
   return text;

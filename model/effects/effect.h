@@ -125,6 +125,9 @@ struct Effect {
   // What a clock that runs at another rate than time is reported as. Exactly
   // one is.
   bool is_clock = false;
+  // Of all joints: what else it may be where they disagree about its size, a
+  // phrase; empty: nothing is known that looks so.
+  std::string if_joints_disagree;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

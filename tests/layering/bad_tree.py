@@ -55,6 +55,9 @@ FILES = {
                         "int G() {\n}\n",
     "calib/verify/a.cc": "namespace {\nint H(int b) {\n}\n}  // namespace\n",
     "problems/a.cc": "namespace {\nint H(int b) {\n}\n}  // namespace\n",
+    "calib/verify/kinds.h": "namespace armcal {\nstruct Gain {\n};\nclass Own;\n}\n",
+    "calib/refine/kinds.h": "namespace armcal {\nclass Gain final : Own {\n};\n}\n",
+    "model/simd/kinds.h": "namespace armcal::simd {\nstruct Gain {\n};\n}\n",
     # Sizes.
     "calib/linear/w.h": "\n" * 211,
     "calib/linear/x.h": "\n" * 141,
@@ -94,6 +97,7 @@ EXPECTED = {
     "sources_share_no_names": [
         "calib/linear/a.cc: kFar is in calib/fleet/a.cc",
         "calib/verify/a.cc: H(int) is in calib/linear/a.cc"],
+    "headers_share_no_types": ["calib/verify/kinds.h: Gain is in calib/refine/kinds.h"],
     "sources_are_shipped": [f"calib/linear/v.h: cites {GUIDE}"],
     "files_keep_their_budget": ["calib/linear/w.h: 211 lines",
                                 "tests/y_test.cc: 331 lines"],

@@ -36,6 +36,7 @@ NOT_SHIPPED = re.compile(r"\b(?:DESIGN|ECOSYSTEM|GAP|HOUSE|INFERENCE|MATH|PERFOR
 # Constants, types and functions that stand in a source by themselves, which
 # clang-format has at the beginning of a line.
 CONSTANT = re.compile(r"^(?:static |constexpr |const )+[\w:<>, *&]*\b(k[A-Z]\w*)", re.M)
+NAMESPACE = re.compile(r"^(?:inline )?namespace ([\w:]+) \{", re.M)
 TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)(?: final)?[^;{]*\{", re.M)
 FUNCTION = re.compile(r"^\w[\w:<>,*& ]*[ *&](\w+)\(([^;{}()]*)\)(?: const)? \{", re.M)
 
@@ -143,6 +144,18 @@ def sources_share_no_names(tree):
                 yield f"{path}: {name} is in {other}, too, of the same library"
 
 
+def headers_share_no_types(tree):
+    """Two types of one name in one namespace are one to the linker, whichever it takes."""
+    first = {}
+    for path in (path for path in tree.code() if path.endswith(".h")):
+        code = tree.bare(path)
+        namespace = "::".join(NAMESPACE.findall(code))
+        for name in sorted(set(TYPE.findall(code))):
+            other = first.setdefault((namespace, name), path)
+            if other != path:
+                yield f"{path}: {name} is in {other}, too, of the same namespace"
+
+
 def sources_are_shipped(tree):
     """What a reader is sent to is in this repository."""
     for path in tree.files:
@@ -153,5 +166,4 @@ def sources_are_shipped(tree):
 
 
 RULES = (names_say_something, paths_lead_somewhere, files_are_there, tests_are_there,
-         sources_share_no_names,
-         sources_are_shipped)
+         sources_share_no_names, headers_share_no_types, sources_are_shipped)

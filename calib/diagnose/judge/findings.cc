@@ -6,7 +6,7 @@
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/judge/agreement.h"
+#include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/changed_friction.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/contact_finding.h"
@@ -119,9 +119,10 @@ FoundEffect Findings::Found(size_t k) const {
   found.evidence = evidence_.ForEffect(k, all);
   // A clock is one for all joints; what lags differently is none.
   if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
-    const Agreement agreement = AgreementOn(fit_, k);
+    const JointAgreement agreement = JointAgreementOn(fit_, k);
     found.joints_agree =
         !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();
+    if (!found.joints_agree) found.joint_sizes = agreement.joints;
   }
   found.dissipates = !MakesFrictionGivePower(fit_, k);
   // What swings has a phase of its own in each log.

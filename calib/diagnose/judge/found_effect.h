@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/probability.h"
 #include "calib/diagnose/select/contacts.h"
@@ -46,8 +47,10 @@ struct FoundEffect {
   double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart
   std::vector<Contact> contacts;  // of external_contact, in time's order
-  // Whether joints tell it alike, if it is of all of them.
+  // Whether joints tell it alike, if it is of all of them, and its size as each
+  // by itself has it where they do not.
   bool joints_agree = true;
+  std::vector<JointAgreement::JointSize> joint_sizes;
   // Whether friction takes power with it.
   bool dissipates = true;
   // How much of it the reference's logs show by themselves.

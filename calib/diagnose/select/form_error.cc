@@ -60,7 +60,7 @@ std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
 bool IsLarge(const GapScreen& screen,
              const std::vector<GapCandidate>& candidates,
              const SelectionOptions& options, int strongest, int other,
-             const Gain& gain) {
+             const GainOfMore& gain) {
   const int first = candidates[strongest].joint, own = candidates[other].joint;
   const double elsewhere = options.other_joint_share * gain.before;
   if (first >= 0 && own >= 0 && own != first) return gain.gain >= elsewhere;

@@ -21,7 +21,7 @@ std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
                                     const std::vector<int>& chosen);
 
 // What one more effect explains.
-struct Gain {
+struct GainOfMore {
   const std::vector<int>&fewer, &more;
   double gain, before;  // of chi^2, by `more` given `fewer`, by those before
 };
@@ -31,7 +31,7 @@ struct Gain {
 bool IsLarge(const GapScreen& screen,
              const std::vector<GapCandidate>& candidates,
              const SelectionOptions& options, int strongest, int other,
-             const Gain& gain);
+             const GainOfMore& gain);
 
 // Whether each of `more` is large enough compared to the strongest of them, and
 // those that are new given what `fewer` explain.

@@ -23,6 +23,11 @@ Effect Delay() {
   effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
     return EffectNumbers{{"delay", p[0]}};
   };
+  // What friction or play holds back at reversals is late by a time that each
+  // joint has for itself; a clock is late by one for all.
+  effect.if_joints_disagree =
+      "friction that lags at reversals (presliding) or play of some joints "
+      "(backlash)";
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }

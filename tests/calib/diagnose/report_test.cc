@@ -83,6 +83,29 @@ TEST(FullReport, ListsWhatItCannotTellApart) {
   EXPECT_TRUE(ToJson(diagnosis)["fitted_not_named"][0]["one_of_few"]);
 }
 
+// Where joints have a delay each, what looks so is said, and what they have.
+TEST(FullReport, SaysWhereJointsDisagree) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  FoundEffect delay = diagnosis.effects[0];
+  delay.effect = FindEffect("delay");
+  delay.joint = -1;
+  delay.estimates = {{"delay", "s", .004}};
+  delay.stddev = {.001};
+  delay.joint_sizes = {{0, .012, .001}, {1, -.001, .002}};
+  diagnosis.unnamed = {delay};
+  EXPECT_THAT(FullReport(diagnosis, true),
+              HasSubstr("\n         its joints disagree: " +
+                        diagnosis.joints[0].name + " 0.012 +- 0.001 s, " +
+                        diagnosis.joints[1].name +
+                        " -0.001 +- 0.002 s\n         which may be friction "
+                        "that lags at reversals"));
+  const nlohmann::json unnamed = ToJson(diagnosis)["fitted_not_named"][0];
+  EXPECT_EQ(unnamed["joint_sizes"][1]["joint_index"], 2);
+  EXPECT_EQ(unnamed["joint_sizes"][0]["value"], .012);
+  diagnosis.unnamed[0].joint_sizes.clear();
+  EXPECT_THAT(FullReport(diagnosis, true), Not(HasSubstr("disagree")));
+}
+
 TEST(FullReport, SaysWhereNothingWasHeldOut) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.torque = {};

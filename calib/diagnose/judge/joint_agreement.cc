@@ -1,7 +1,8 @@
-#include "calib/diagnose/judge/agreement.h"
+#include "calib/diagnose/judge/joint_agreement.h"
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
 
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
@@ -66,9 +67,50 @@ VectorXd RefinedSize(const GapFit& fit, size_t k) {
   return x;
 }
 
+// What one joint's rows tell of an effect's sizes: by how much it would rather
+// have them larger, and the inverse covariance of that.
+struct Told {
+  MatrixXd information;
+  VectorXd further;
+};
+
+// From its rows P of the effect's columns and r of what is left with the sizes
+// of all joints: d = A^-1 P'r, A = P'P. A ridge of 1e-9 keeps joints solvable
+// that have one of two columns only.
+Told ToldBy(const MatrixXd& P, const VectorXd& r) {
+  Told told{P.transpose() * P, {}};
+  told.information.diagonal().array() +=
+      1e-9 * told.information.trace() + 1e-12;
+  told.further = told.information.ldlt().solve(P.transpose() * r);
+  return told;
+}
+
+std::vector<Told> ToldByJoints(const GapFit& fit, size_t k) {
+  const GapScreen screen = WithoutTiming(fit);
+  const JointRows left = LeftOf(fit, screen);
+  const std::vector<int>& chosen = fit.selection().chosen;
+  int first = 0;
+  for (size_t i = 0; i < k; ++i) {
+    first += static_cast<int>(fit.candidates()[chosen[i]].columns.size());
+  }
+  std::vector<JointRows> columns;
+  for (size_t c = 0; c < fit.candidates()[chosen[k]].linear.size(); ++c) {
+    columns.push_back(screen.Projected(first + static_cast<int>(c)));
+  }
+  std::vector<Told> told;
+  for (int j = 0; j < screen.num_joints(); ++j) {
+    MatrixXd P(screen.num_rows(j), static_cast<Eigen::Index>(columns.size()));
+    for (size_t c = 0; c < columns.size(); ++c) {
+      P.col(static_cast<Eigen::Index>(c)) = columns[c][j];
+    }
+    told.push_back(ToldBy(P, left[j]));
+  }
+  return told;
+}
+
 }  // namespace
 
-bool Agreement::Differ(double form) const {
+bool JointAgreement::Differ(double form) const {
   return freedom > 0 && chi_squared > form * delta_chi2 &&
          IsMoreThanChance(chi_squared, freedom);
 }
@@ -77,56 +119,44 @@ bool Agreement::Differ(double form) const {
 // columns on joint j and r_j what all effects leave there, joint j by itself
 // would have the size x + d_j,
 //   d_j = A_j^-1 P_j' r_j,  A_j = P_j' P_j,
-// and all of them together x + d, d = (sum A_j)^-1 sum P_j' r_j. What joints
+// and all of them together x + d, d = (sum A_j)^-1 sum A_j d_j. What joints
 // differ by,
 //   Q = sum_j d_j' A_j d_j - d' (sum_j A_j) d,
 // is chi squared of (joints - 1) times as many degrees as there are columns
 // where all joints have the same size: Cochran's Q of a meta-analysis (1954). A
 // joint with less than Limits().tells of the effect's squared torque has no
-// say. A ridge of 1e-9 keeps joints solvable that have one of two columns only.
-Agreement AgreementOn(const GapFit& fit, size_t k) {
-  const GapScreen screen = WithoutTiming(fit);
-  const JointRows left = LeftOf(fit, screen);
-  const std::vector<int>& chosen = fit.selection().chosen;
-  int first = 0;
-  for (size_t i = 0; i < k; ++i) {
-    first += static_cast<int>(fit.candidates()[chosen[i]].columns.size());
-  }
+// say.
+JointAgreement JointAgreementOn(const GapFit& fit, size_t k) {
   const VectorXd x = RefinedSize(fit, k);
-  const int n = screen.num_joints(), size = static_cast<int>(x.size());
-  std::vector<JointRows> columns;
-  for (int c = 0; c < size; ++c) columns.push_back(screen.Projected(first + c));
-  std::vector<MatrixXd> information(n);
-  std::vector<VectorXd> wanted(n);
-  double told = 0;
-  for (int j = 0; j < n; ++j) {
-    MatrixXd rows(screen.num_rows(j), size);
-    for (int c = 0; c < size; ++c) rows.col(c) = columns[c][j];
-    information[j] = rows.transpose() * rows;
-    wanted[j] = rows.transpose() * left[j];
-    told += information[j].trace();
-  }
-  Agreement agreement;
+  const int size = static_cast<int>(x.size());
+  const std::vector<Told> told = ToldByJoints(fit, k);
+  double all_told = 0;
+  for (const Told& one : told) all_told += one.information.trace();
+  JointAgreement agreement;
   int tell = 0;
   MatrixXd all = MatrixXd::Zero(size, size);
-  VectorXd all_want = VectorXd::Zero(size);
-  for (int j = 0; j < n; ++j) {
-    agreement.moving += screen.num_rows(j) > 0;
-    const double trace = information[j].trace();
-    information[j].diagonal().array() += 1e-9 * trace + 1e-12;
-    const VectorXd further = information[j].ldlt().solve(wanted[j]);
+  VectorXd wanted = VectorXd::Zero(size);
+  for (int j = 0; j < static_cast<int>(told.size()); ++j) {
+    const auto& [information, further] = told[j];
+    if (fit.screen().num_rows(j) == 0) continue;
+    ++agreement.moving;
     const VectorXd alone = x + further;
-    agreement.seen_by +=
-        IsMoreThanChance(alone.dot(information[j] * alone), size);
-    if (trace <= Limits().tells * told) continue;
+    agreement.seen_by += IsMoreThanChance(alone.dot(information * alone), size);
+    const bool shows_there = information.trace() > 1e-6 * all_told;
+    if (size == 1 && shows_there) {
+      const double unit = fit.candidates()[fit.selection().chosen[k]].size[0];
+      agreement.joints.push_back(
+          {j, unit * alone[0], std::abs(unit) / std::sqrt(information(0, 0))});
+    }
+    if (information.trace() <= Limits().tells * all_told) continue;
     ++tell;
-    agreement.chi_squared += wanted[j].dot(further);
-    all += information[j];
-    all_want += wanted[j];
+    agreement.chi_squared += further.dot(information * further);
+    all += information;
+    wanted += information * further;
   }
   if (tell == 0) return agreement;
-  const VectorXd common = all.ldlt().solve(all_want);
-  agreement.chi_squared -= all_want.dot(common);
+  const VectorXd common = all.ldlt().solve(wanted);
+  agreement.chi_squared -= wanted.dot(common);
   agreement.delta_chi2 = (x + common).dot(all * (x + common));
   agreement.freedom = (tell - 1) * size;
   return agreement;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "calib/diagnose/select/fit.h"
 
@@ -21,12 +22,21 @@ namespace armcal {
 //
 // A joint that has the sizes x_j by itself sees the effect where x_j' A_j x_j
 // is more than chance.
-struct Agreement {
+struct JointAgreement {
+  // The effect's only linear parameter, in its own unit, as one joint by itself
+  // has it.
+  struct JointSize {
+    int joint = 0;
+    double value = 0, stddev = 0;
+  };
+
   double chi_squared = 0;
   double delta_chi2 = 0;
   int freedom = 0;
   int moving = 0;   // joints with rows
   int seen_by = 0;  // joints
+  // Of joints that move; empty where the effect has several parameters.
+  std::vector<JointSize> joints = {};
 
   // Whether they differ by more than chance (three standard deviations), and by
   // more than `form`: what of its delta chi^2 an effect's form may have wrong.
@@ -35,6 +45,6 @@ struct Agreement {
   bool IsOfOneJoint() const { return moving > 1 && seen_by < 2; }
 };
 
-Agreement AgreementOn(const GapFit& fit, size_t k);
+JointAgreement JointAgreementOn(const GapFit& fit, size_t k);
 
 }  // namespace armcal

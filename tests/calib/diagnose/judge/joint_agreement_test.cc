@@ -1,0 +1,103 @@
+#include "calib/diagnose/judge/joint_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "model/signals/delayed_signal.h"
+#include "tests/fixtures/diagnosed_arm.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
+
+namespace armcal::joint_agreement_test {
+
+// Quantiles of chi squared: 5 degrees exceed 18.2 once in 370 times.
+TEST(JointAgreementTest, JointsDifferBeyondChance) {
+  EXPECT_FALSE((JointAgreement{17, 50, 5}.Differ(.2)));
+  EXPECT_TRUE((JointAgreement{20, 50, 5}.Differ(.2)));
+}
+
+// What the form of a large effect has wrong differs from joint to joint.
+TEST(JointAgreementTest, JointsAgreeWithinAnErrorOfForm) {
+  EXPECT_FALSE((JointAgreement{20, 1000, 5}.Differ(.2)));
+}
+
+TEST(JointAgreementTest, OneJointCannotDiffer) {
+  EXPECT_FALSE((JointAgreement{100, 50, 0}.Differ(.2)));
+}
+
+// Of two that move, the other would have seen a clock that is wrong.
+TEST(JointAgreementTest, OneOfSeveralJointsIsNotAll) {
+  EXPECT_TRUE((JointAgreement{0, 0, 0, 2, 1}.IsOfOneJoint()));
+  EXPECT_FALSE((JointAgreement{0, 0, 0, 2, 2}.IsOfOneJoint()));
+  EXPECT_FALSE((JointAgreement{0, 0, 0, 1, 1}.IsOfOneJoint()));
+}
+
+// Of a few milliseconds a refit takes up all but what its prior says: it is
+// seen by both joints nevertheless.
+class JointAgreementOnTest : public DiagnosedArm<32> {};
+
+TEST_F(JointAgreementOnTest, ADelayIsSeenGivenTheBaselinesOwn) {
+  Add("delay", -1, {.006});
+  const GapDiagnosis diagnosis = Diagnose(File());
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "delay");
+  ExpectEstimate(diagnosis.effects[0], "delay", .006, .1);
+}
+
+// A column is a small delay's; what a large one differs from it by is no
+// disagreement of joints.
+TEST(JointAgreementOn, JointsAgreeAboutALargeDelay) {
+  constexpr double kDelay = .05;  // s
+  const EffectArm arm("2R planar (vertical plane)", 30, .005);
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
+  Eigen::MatrixXd tau = Delayed(
+      RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal(),
+      kDelay / arm.motion.dt);
+  std::mt19937_64 random(2);
+  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
+  GapFitOptions options;
+  options.bandwidth_hz = 6;
+  GapFit fit(baseline, options, {MakeSegment(arm.motion, tau)}, {});
+  fit.Choose();
+  const std::vector<GapCandidate>& found = fit.refined().effects;
+  ASSERT_FALSE(found.empty());
+  ASSERT_EQ(found[0].effect->name, "delay");
+  const JointAgreement agreement = JointAgreementOn(fit, 0);
+  EXPECT_EQ(agreement.seen_by, 2);
+  // 2.6e-5 by what columns leave instead of what the delay does.
+  EXPECT_LT(agreement.chi_squared, 5e-6 * agreement.delta_chi2);
+}
+
+// The torque of one of three joints is late by less than the others': each by
+// itself says what it is late by.
+TEST(JointAgreementOn, TellsWhatEachJointHas) {
+  constexpr double kDelay = .03, kOther = .01;  // s
+  const EffectArm arm("3R elbow", 30, .005);
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(3, 10));
+  const Eigen::MatrixXd prompt =
+      RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal();
+  Eigen::MatrixXd tau = Delayed(prompt, kDelay / arm.motion.dt);
+  tau.col(1) = Delayed(prompt, kOther / arm.motion.dt).col(1);
+  std::mt19937_64 random(2);
+  AddNoise(&random, Eigen::Vector3d(.2, .2, .1), &tau);
+  GapFitOptions options;
+  options.bandwidth_hz = 6;
+  for (const Effect& effect : Effects()) {
+    if (effect.name != "delay") options.without.push_back(effect.name);
+  }
+  GapFit fit(baseline, options, {MakeSegment(arm.motion, tau)}, {});
+  fit.Choose();
+  ASSERT_EQ(fit.refined().effects.size(), 1u);
+  const JointAgreement agreement = JointAgreementOn(fit, 0);
+  ASSERT_EQ(agreement.joints.size(), 3u);
+  for (const JointAgreement::JointSize& one : agreement.joints) {
+    // What a log holds too late is negative.
+    const double delay = one.joint == 1 ? kOther : kDelay;
+    EXPECT_NEAR(one.value, -delay, .15 * kDelay) << one.joint;
+    EXPECT_GT(one.stddev, 0);
+  }
+}
+
+}  // namespace armcal::joint_agreement_test
