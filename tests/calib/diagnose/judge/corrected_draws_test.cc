@@ -1,0 +1,268 @@
+#include "calib/diagnose/judge/corrected_draws.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "calib/diagnose/data/motion_scale.h"
+#include "calib/diagnose/data/segments.h"
+#include "calib/diagnose/select/missing_terms.h"
+#include "model/dynamics/inverse_dynamics.h"
+#include "model/effects/effects.h"
+#include "model/robot_files/robot_reader.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
+
+namespace armcal::corrected_draws_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kRobots = 64;
+
+// Torques of a robot in a motion, joint by joint, as whoever simulates it has
+// them: links and motors, and laws without states of their own.
+MatrixXd Torques(const SimulatedRobot& plant, const Motion& motion) {
+  constexpr int kEvery = 20;
+  const int n = plant.robot.num_joints();
+  MatrixXd torques(motion.size() / kEvery, n);
+  for (Eigen::Index k = 0; k < torques.rows(); ++k) {
+    const Eigen::Index at = kEvery * k;
+    ArmInstant instant;
+    instant.position = instant.link_position = motion.q.row(at);
+    instant.velocity = instant.link_velocity = motion.qd.row(at);
+    instant.load = InverseDynamics(plant.robot, motion.q.row(at),
+                                   motion.qd.row(at), motion.qdd.row(at));
+    instant.temperature = VectorXd::Zero(n);
+    torques.row(k) = instant.load;
+    for (int j = 0; j < n; ++j) {
+      torques(k, j) += plant.robot.links[j].joint.armature * motion.qdd(at, j);
+    }
+    for (const JointLaw& law : plant.joint_laws) {
+      if (law.initial_state.size() > 0) continue;
+      torques(k, law.joint) -= law.torque(instant, nullptr, nullptr);
+    }
+  }
+  return torques;
+}
+
+struct Spread {
+  VectorXd drawn, predicted;  // per joint, mean squares, N m
+  VectorXd off;               // of the mean, per joint, mean squares
+  double Whole() const {
+    return std::sqrt(drawn.cwiseQuotient(predicted).mean());
+  }
+};
+
+// What is drawn, and what the covariance makes of the torque's slopes.
+Spread SpreadOf(const GapFit& fit, const CorrectedPosterior& posterior,
+                const CorrectedDraws& draws, const Motion& motion) {
+  const auto at = [&](const VectorXd& values) {
+    return Torques(MakeCorrectedRobot(fit.baseline(), posterior.ModelAt(values),
+                                      posterior.EffectsAt(values), fit.scale())
+                       .plant,
+                   motion);
+  };
+  const MatrixXd mean = at(posterior.mean);
+  MatrixXd Y(mean.size(), posterior.mean.size());
+  for (Eigen::Index k = 0; k < Y.cols(); ++k) {
+    const double step = .1 * std::sqrt(posterior.covariance(k, k));
+    VectorXd values = posterior.mean;
+    values[k] += step;
+    Y.col(k) = (at(values) - mean).reshaped() / step;
+  }
+  const VectorXd variance =
+      (Y * posterior.covariance).cwiseProduct(Y).rowwise().sum();
+  MatrixXd squares = MatrixXd::Zero(mean.rows(), mean.cols());
+  MatrixXd sum = MatrixXd::Zero(mean.rows(), mean.cols());
+  for (const CorrectedRobot& robot : draws.robots) {
+    const MatrixXd differs = Torques(robot.plant, motion) - mean;
+    squares += differs.cwiseAbs2() / kRobots;
+    sum += differs / kRobots;
+  }
+  Spread spread;
+  spread.predicted =
+      variance.reshaped(mean.rows(), mean.cols()).colwise().mean();
+  spread.drawn = squares.colwise().mean();
+  spread.off = sum.cwiseAbs2().colwise().mean();
+  return spread;
+}
+
+void ExpectPossible(const CorrectedDraws& draws) {
+  ASSERT_EQ(draws.refusal, "");
+  ASSERT_EQ(draws.robots.size(), static_cast<size_t>(kRobots));
+  for (const CorrectedRobot& robot : draws.robots) {
+    for (const Link& link : robot.plant.robot.links) {
+      const auto P = PseudoInertia(link.inertial.ToVector());
+      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(P)
+                    .eigenvalues()
+                    .minCoeff(),
+                0);
+      EXPECT_GE(link.joint.viscous, 0);
+      EXPECT_GE(link.joint.coulomb, 0);
+      EXPECT_GE(link.joint.armature, 0);
+    }
+  }
+}
+
+// A simulated arm, whose friction falls with speed on one joint and whose links
+// are 2 % heavier than the file's.
+class CorrectedDrawsTest : public testing::Test {
+ protected:
+  CorrectedDrawsTest()
+      : arm_("3R elbow", 40, .005),
+        baseline_(arm_.robot, {}, arm_.scale.torque) {
+    RecordedTorque recorded(arm_.robot, baseline_.transitions(), arm_.motion);
+    tau_ = recorded.nominal();
+    SimulatedRobot heavier;
+    heavier.robot = arm_.robot;
+    for (Link& link : heavier.robot.links) {
+      link.inertial =
+          InertialParameters::FromVector(1.02 * link.inertial.ToVector());
+    }
+    tau_ += recorded.Change(heavier);
+    tau_ += arm_.Change(
+        *FindEffect("stribeck"), 1,
+        Eigen::Vector2d(.3 * arm_.scale.torque[1], .3 * arm_.scale.speed[1]),
+        &recorded);
+    truth_ = tau_;
+    std::mt19937_64 random(2);
+    AddNoise(&random, .02 * arm_.scale.torque, &tau_);
+  }
+
+  GapFit Fit() {
+    GapFitOptions options;
+    options.bandwidth_hz = 6;
+    for (const Effect& effect : Effects()) {
+      if (effect.name != "stribeck") options.without.push_back(effect.name);
+    }
+    GapFit fit(baseline_, options, {MakeSegment(arm_.motion, tau_)}, {});
+    fit.Choose();
+    EXPECT_EQ(fit.refined().effects.size(), 1u);
+    return fit;
+  }
+
+  EffectArm arm_;
+  GapBaseline baseline_;
+  MatrixXd truth_, tau_;
+};
+
+TEST_F(CorrectedDrawsTest, SpreadAsThePosteriorSays) {
+  const GapFit fit = Fit();
+  const CorrectedPosterior posterior = PosteriorOf(fit);
+  ASSERT_EQ(posterior.parameters.size(), 2u);
+  const CorrectedDraws draws =
+      DrawCorrected(fit, posterior, arm_.robot, kRobots);
+  ExpectPossible(draws);
+  const Spread spread = SpreadOf(fit, posterior, draws, arm_.motion);
+  EXPECT_NEAR(spread.Whole(), 1, .1);
+  for (int j = 0; j < 3; ++j) {
+    EXPECT_NEAR(std::sqrt(spread.drawn[j] / spread.predicted[j]), 1, .3) << j;
+  }
+  RecordProperty("spread", std::to_string(spread.Whole()));
+}
+
+// Effects are drawn with the model: more of what falls with speed goes with
+// less friction that does not, as the log tells their sum.
+TEST_F(CorrectedDrawsTest, EffectsAreDrawnWithTheModel) {
+  const GapFit fit = Fit();
+  const CorrectedPosterior posterior = PosteriorOf(fit);
+  const CorrectedDraws draws =
+      DrawCorrected(fit, posterior, arm_.robot, kRobots);
+  VectorXd law(kRobots), dry(kRobots);
+  for (int r = 0; r < kRobots; ++r) {
+    law[r] = draws.robots[r].effects.at(0).found.p[0];
+    dry[r] = draws.robots[r].plant.robot.links[1].joint.coulomb;
+  }
+  const double truth = .3 * arm_.scale.torque[1];
+  const VectorXd off = law.array() - law.mean();
+  const double stddev = std::sqrt(off.squaredNorm() / kRobots);
+  EXPECT_LT(std::abs(law.mean() - truth), 4 * stddev);
+  EXPECT_GT(stddev, 0);
+  EXPECT_LT(
+      off.dot(dry.array().matrix() - VectorXd::Constant(kRobots, dry.mean())),
+      0);
+}
+
+// The posterior's torque is off the noiseless truth by what it says itself: by
+// no more than twice, and no less than a tenth.
+TEST_F(CorrectedDrawsTest, TheTruthIsAsFarAsTheySpread) {
+  const GapFit fit = Fit();
+  const CorrectedPosterior posterior = PosteriorOf(fit);
+  const CorrectedDraws draws =
+      DrawCorrected(fit, posterior, arm_.robot, kRobots);
+  const MatrixXd mean =
+      Torques(MakeCorrectedRobot(fit.baseline(), posterior.model,
+                                 posterior.effects, fit.scale())
+                  .plant,
+              arm_.motion);
+  const Spread spread = SpreadOf(fit, posterior, draws, arm_.motion);
+  for (int j = 0; j < 3; ++j) {
+    double squares = 0;
+    for (Eigen::Index k = 0; k < mean.rows(); ++k) {
+      squares += std::pow(truth_(20 * k, j) - mean(k, j), 2);
+    }
+    const double off = std::sqrt(squares / static_cast<double>(mean.rows()));
+    const double says = std::sqrt(spread.drawn[j]);
+    EXPECT_LT(off, 2 * says) << j;
+    EXPECT_GT(off, .1 * says) << j;
+  }
+}
+
+// A real arm by one log, at the motion of another, which nothing was fitted to.
+TEST(CorrectedDrawsOfUr10e, SpreadAsThePosteriorSays) {
+  const std::string folder = SHARED_DIR "/data/ur10e_free/";
+  if (!std::filesystem::exists(folder)) {
+    GTEST_SKIP() << "no " << folder;
+  }
+  constexpr double kBandwidth = 10;
+  const Robot file = ReadRobot(folder + "robot.urdf", {});
+  LogReaderOptions reader;
+  reader.joint_names = file.JointNames();
+  reader.torque_constants = {14.87, 13.26, 11.13, 10.62, 11.03, 11.47};
+  reader.torque_constants_stddev.reset();
+  const auto read = [&](const std::string& name) {
+    const LogSet logs(LogFiles({folder + name}), reader, {});
+    return ReadSegments(kBandwidth, {}, logs);
+  };
+  const std::vector<GapSegment> segments = read("id_30s.csv");
+  BaselineOptions options;
+  const MissingTerms missing =
+      FitMissingTerms(file, options, kBandwidth, segments);
+  for (const MissingTerm& term : missing.terms) {
+    options.missing_terms[term.joint_term] = term.usual;
+  }
+  GapBaseline baseline(missing.robot, options, UsualTorque(segments));
+  {
+    const GapRows rows(segments, kBandwidth);
+    baseline.AddDiscrepancy(Discrepancy(
+        file, ScaleOf(baseline, rows, RecordedTorques(baseline, rows)), 1,
+        .05));
+  }
+  GapFitOptions fit_options;
+  fit_options.bandwidth_hz = kBandwidth;
+  GapFit fit(baseline, fit_options, segments, {});
+  fit.Choose();
+  const CorrectedPosterior posterior = PosteriorOf(fit);
+  const CorrectedDraws draws = DrawCorrected(fit, posterior, file, kRobots);
+  ExpectPossible(draws);
+  const Spread spread =
+      SpreadOf(fit, posterior, draws, read("val_ptp.csv")[0].motion);
+  std::cout
+      << "whole " << spread.Whole() << "\njoints "
+      << spread.drawn.cwiseQuotient(spread.predicted).cwiseSqrt().transpose()
+      << "\nmean off "
+      << spread.off.cwiseQuotient(spread.predicted).cwiseSqrt().transpose()
+      << "\nstddev " << spread.predicted.cwiseSqrt().transpose() << "\n";
+  for (const GapCandidate& e : posterior.effects) {
+    std::cout << e.effect->name << " " << e.joint << " " << e.p.transpose()
+              << "\n";
+  }
+  EXPECT_NEAR(spread.Whole(), 1, .1);
+}
+
+}  // namespace armcal::corrected_draws_test
