@@ -18,16 +18,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool IsPossibleLink(const InertialParameters& link) {
-  return link.ToVector().isZero(0) || WhyUnphysical(link).empty();
-}
-
-bool HavePossibleLinks(const Robot& robot) {
-  return std::all_of(
-      robot.links.begin(), robot.links.end(),
-      [](const Link& link) { return IsPossibleLink(link.inertial); });
-}
-
 bool IsBody(const Vector10d& link) {
   return Eigen::LLT<Eigen::Matrix4d>(PseudoInertia(link)).info() ==
          Eigen::Success;
@@ -63,7 +53,7 @@ class PossibleCorrections {
   }
 
   // The part of a line on which a robot can exist.
-  LineRange OnLine(const VectorXd& at, const VectorXd& along) const {
+  LineRange operator()(const VectorXd& at, const VectorXd& along) const {
     PossibleRange range;
     const VectorXd numbers = constant_ + slope_ * at, change = slope_ * along;
     for (Eigen::Index i = 0; i < numbers.size(); ++i) {
@@ -235,7 +225,12 @@ std::optional<VectorXd> PossibleCorrections::Start(const Robot& file) const {
 // Whether the whole of it can exist: a body that was taken off is not more than
 // there was, and effects are of a real arm.
 bool IsPossible(const CorrectedRobot& robot) {
-  return HavePossibleLinks(robot.plant.robot) &&
+  const std::vector<Link>& links = robot.plant.robot.links;
+  return std::all_of(links.begin(), links.end(),
+                     [](const Link& link) {
+                       return link.inertial.ToVector().isZero(0) ||
+                              WhyUnphysical(link.inertial).empty();
+                     }) &&
          std::all_of(robot.effects.begin(), robot.effects.end(),
                      [](const CarriedEffect& carried) {
                        const auto& plausible = carried.found.effect->plausible;
@@ -260,12 +255,9 @@ CorrectedDraws DrawCorrected(const GapFit& fit,
     result.refusal = "no robot that can exist is near the one that was fitted";
     return result;
   }
-  const auto on_line = [&](const VectorXd& at, const VectorXd& along) {
-    return possible.OnLine(at, along);
-  };
   for (int tries = 1; tries <= kMostTries; tries *= 2) {
     const MatrixXd draws = DrawWithin(posterior.mean, posterior.covariance,
-                                      on_line, tries * count, kSeed, *start);
+                                      possible, tries * count, kSeed, *start);
     result.robots.clear();
     for (const VectorXd values : draws.colwise()) {
       CorrectedRobot robot =
@@ -279,9 +271,7 @@ CorrectedDraws DrawCorrected(const GapFit& fit,
   }
   result.robots.clear();
   result.refusal =
-      "with the effects that were found, most robots that the data allow "
-      "cannot "
-      "exist";
+      "most robots that the data allow cannot exist with the effects found";
   return result;
 }
 
