@@ -13,7 +13,8 @@ namespace {
 EffectNumbers NumbersOf(const CorrectedRobot& corrected) {
   EffectNumbers numbers;
   const Robot& robot = corrected.plant.robot;
-  for (const auto& [name, parameter] : RobotParameters(robot).all()) {
+  const RobotParameters parameters(robot);
+  for (const auto& [name, parameter] : parameters.all()) {
     if (!parameter.geometric) numbers.push_back({name, parameter.value});
   }
   numbers.push_back({"delay_s", corrected.delay});

@@ -130,6 +130,9 @@ struct Simulated {
   Simulated()
       : arm("3R elbow", 40, .005), baseline(arm.robot, {}, arm.scale.torque) {
     RecordedTorque recorded(arm.robot, baseline.transitions(), arm.motion);
+    for (int j = 0; j < 3; ++j) {
+      arm.scale.width[j] = baseline.transitions()[j].width;
+    }
     SimulatedRobot heavier;
     heavier.robot = arm.robot;
     for (Link& link : heavier.robot.links) {
@@ -183,21 +186,30 @@ TEST(CorrectedDrawsTest, SpreadAsThePosteriorSays) {
   Record(spread);
 }
 
-// Effects are drawn with the model: more of what falls with speed goes with
-// less friction that does not, as the log tells their sum.
+// Effects are drawn with the model: the log tells friction, all of it, and
+// where it is of the law that falls with speed there is less of the others, so
+// that the sum is known better than if they did not know of each other.
 TEST(CorrectedDrawsTest, EffectsAreDrawnWithTheModel) {
   ASSERT_EQ(Arm().draws.refusal, "");
-  VectorXd law(kRobots), dry(kRobots);
+  const double v = .1 * Arm().arm.scale.speed[1];
+  VectorXd law(kRobots), others(kRobots);
   for (int r = 0; r < kRobots; ++r) {
     const CorrectedRobot& robot = Arm().draws.robots[r];
-    law[r] = robot.effects.at(0).found.p[0];
-    dry[r] = robot.plant.robot.links[1].joint.coulomb;
+    const VectorXd& p = robot.effects.at(0).found.p;
+    law[r] = p[0] * std::exp(-v * v / (p[1] * p[1]));
+    others[r] = v * robot.plant.robot.links[1].joint.viscous;
+    for (const CoulombPart& part : robot.coulomb[1]) {
+      others[r] += part.force * std::tanh(v / part.transition.width);
+    }
   }
-  const VectorXd off = law.array() - law.mean();
-  const double stddev = std::sqrt(off.squaredNorm() / kRobots);
-  EXPECT_LT(std::abs(law.mean() - Arm().stribeck), 4 * stddev);
-  EXPECT_GT(stddev, 0);
-  EXPECT_LT(off.dot(dry), 0);
+  const auto variance = [](const VectorXd& x) {
+    return (x.array() - x.mean()).square().mean();
+  };
+  EXPECT_LT(
+      std::abs(law.mean() - Arm().stribeck * std::exp(-std::pow(.1 / .3, 2))),
+      4 * std::sqrt(variance(law)));
+  EXPECT_GT(variance(law), 0);
+  EXPECT_LT(variance(law + others), .5 * (variance(law) + variance(others)));
 }
 
 // The fitted torque is off the noiseless truth by what the robots spread: by no
