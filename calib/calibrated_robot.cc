@@ -4,25 +4,22 @@
 #include "calib/refine/robot_draws.h"
 #include "calib/robot_outputs.h"
 #include "model/robot_files/urdf_writer.h"
-#include "model/text/format.h"
 
 namespace armcal {
 namespace {
 
 // samples.csv and samples/robot_01.urdf .., in every format that is asked for.
-void AddSamples(const NonlinearCalibration& refined,
-                const std::optional<ControllerOptions>& controller,
-                const CalibrateOptions& options, nlohmann::json* json,
-                CalibrateSummary* summary) {
+void AddDrawnRobots(const NonlinearCalibration& refined,
+                    const std::optional<ControllerOptions>& controller,
+                    const CalibrateOptions& options, nlohmann::json* json,
+                    CalibrateSummary* summary) {
   const RobotDraws draws = DrawRobots(refined, options.samples);
   const auto formats = FormatsBesideUrdf(options.exports);
   summary->files.push_back({"samples.csv", RobotDrawsCsv(draws)});
-  const int digits = static_cast<int>(std::to_string(options.samples).size());
-  for (size_t r = 0; r < draws.robots.size(); ++r) {
+  for (int r = 0; r < options.samples; ++r) {
     const Robot& robot = draws.robots[r];
-    const std::string stem = Format("samples/robot_%0*zu", digits, r + 1);
     const auto add = [&](const std::string& file, const std::string& text) {
-      summary->files.push_back({stem + file.substr(file.find('.')), text});
+      summary->files.push_back({SampleFile(file, r, options.samples), text});
     };
     add("robot.urdf",
         RobotUrdf(options.source, robot, refined.refined_geometry));
@@ -30,11 +27,7 @@ void AddSamples(const NonlinearCalibration& refined,
       add(format->file, format->write({robot, {}, controller}));
     }
   }
-  (*json)["samples"] = {{"count", options.samples}, {"file", "samples.csv"}};
-  summary->report += Format(
-      "samples  %d robots that the data and the file allow, each of them "
-      "possible: samples.csv, samples/\n",
-      options.samples);
+  summary->report += AddSamples(options.samples, json);
 }
 
 }  // namespace
@@ -62,7 +55,7 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
       AddExports({refined.robot, {}, controller},
                  FormatsBesideUrdf(options.exports), json, &summary->files);
   if (options.samples > 0) {
-    AddSamples(refined, controller, options, json, summary);
+    AddDrawnRobots(refined, controller, options, json, summary);
   }
 }
 

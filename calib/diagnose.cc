@@ -9,6 +9,7 @@
 #include "calib/diagnose/modules/modules.h"
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
+#include "calib/diagnosed_samples.h"
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
@@ -100,6 +101,7 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
   fit.bandwidth_hz = options.bandwidth_hz;
   fit.forward = options.forward;
   fit.seed = options.seed;
+  fit.samples = options.samples;
   return fit;
 }
 
@@ -226,6 +228,9 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
       AddRobotFiles(corrected.files, &json, &summary.files);
   summary.report = FullReport(diagnosis, options.verbose) + losses;
   AddModules(diagnosis.corrected, options.modules, &json, &summary);
+  summary.report += AddDiagnosedSamples(robot, diagnosis, options.source,
+                                        FormatsBesideUrdf(options.exports),
+                                        &json, &summary.files);
   summary.brief = BriefReport(diagnosis);
   if (changes) AddChanges(*changes, &json, &summary);
   summary.json = json.dump(2) + "\n";

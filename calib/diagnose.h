@@ -48,6 +48,7 @@ struct DiagnoseOptions {
   bool changes = false;
   std::uint64_t seed = 0;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..
+  int samples = 0;                   // robots to draw from what is known
   RobotSource source;                // of the robot
   // Laws that simulators lack as sources for their loops: "python", "c".
   std::vector<std::string> modules;

@@ -5,6 +5,7 @@
 #include "model/robot_files/robot_formats.h"
 #include "model/robot_files/urdf_update.h"
 #include "model/robot_files/urdf_writer.h"
+#include "model/text/format.h"
 #include "model/text/input_text.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
@@ -70,6 +71,24 @@ std::string AddExports(const RobotDescription& description,
         {format, format->write(description), Losses(*format, description)});
   }
   return AddRobotFiles(files, json, results);
+}
+
+// What stands beside the robot of a file, such as actuators in Python, has the
+// robot's name and its own ending.
+std::string SampleFile(const std::string& file, int r, int count) {
+  const int digits = static_cast<int>(std::to_string(count).size());
+  const std::string kind = file.rfind("effects", 0) == 0 ? "effects" : "robot";
+  const bool is_of_kind = file.rfind(kind, 0) == 0;
+  return Format("samples/%s_%0*d", kind.c_str(), digits, r + 1) +
+         file.substr(is_of_kind ? kind.size() : file.find('.'));
+}
+
+std::string AddSamples(int count, nlohmann::json* json) {
+  (*json)["samples"] = {{"count", count}, {"file", "samples.csv"}};
+  return Format(
+      "samples  %d robots that the data and the file allow, each of them "
+      "possible: samples.csv, samples/\n",
+      count);
 }
 
 std::string RobotUrdf(const RobotSource& source, const Robot& robot,

@@ -28,6 +28,14 @@ std::string AddExports(const RobotDescription& description,
                        const std::vector<const RobotFormat*>& formats,
                        nlohmann::json* json, std::vector<ResultFile>* results);
 
+// The name of the r-th of `count` drawn robots' files, from 0, for one robot's
+// file: samples/robot_01.urdf, samples/robot_01_plain.xml,
+// samples/effects_01.json.
+std::string SampleFile(const std::string& file, int r, int count);
+// Says in `json` that so many robots were drawn, of which samples.csv has the
+// parameters. Returns the line of a report.
+std::string AddSamples(int count, nlohmann::json* json);
+
 // robot.urdf: a URDF that the robot was read from with its numbers changed, its
 // origins too with `geometry`; else the chain alone.
 std::string RobotUrdf(const RobotSource& source, const Robot& robot,

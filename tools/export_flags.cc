@@ -57,7 +57,7 @@ std::vector<std::string> ExportFormatsFromFlags(const FlagValues& flags) {
   if (choice.samples > 0) {
     throw UsageError(
         "--export: found 'samples', expected formats alone; samples are drawn "
-        "from what armcal calibrate knows");
+        "from what armcal calibrate and armcal diagnose know");
   }
   return choice.formats;
 }

@@ -62,6 +62,7 @@ class Diagnoser {
   bool ClaimNoMore(GapFindings* findings);
   JointGap JointFigures(int joint) const;
   JointCourse CourseOf(int joint) const;
+  void Draw();
   void Simulate(const LogSet& held_out, bool split);
   void TellUnexplained();
   void Judge();
@@ -292,6 +293,13 @@ JointCourse Diagnoser::CourseOf(int j) const {
           at.col(4)};
 }
 
+void Diagnoser::Draw() {
+  Tell("drawing robots");
+  result_.draws =
+      DrawCorrected(*fit_, PosteriorOf(*fit_), robot_, options_.samples);
+  for (CorrectedRobot& robot : result_.draws.robots) robot.AddDelay(delay_);
+}
+
 // The held-out motion by the file's robot, the refitted one and the one with
 // the effects, of one fold where a log is its own; events are not repeated.
 void Diagnoser::Simulate(const LogSet& held_out, bool split) {
@@ -303,6 +311,7 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
   SetLawShares(*baseline_, fit_->data(), &result_.corrected);
   // Segments have their torque as if it came without delay; logs have not.
   result_.corrected.AddDelay(delay_);
+  if (options_.samples > 0) Draw();
   if (!options_.forward) return;
   const Predictor& model = held_out_->predictor_of_part();
   ForwardRobots robots = {robot(fit_->before(), {}),
@@ -367,6 +376,9 @@ void Diagnoser::Judge() {
     result_.effects.clear();
     result_.unnamed.clear();
     result_.candidates.clear();
+    if (options_.samples > 0) {
+      result_.draws = {{}, "these data cannot carry a diagnosis"};
+    }
     return;
   }
   double left = 0;

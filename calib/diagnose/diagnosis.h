@@ -10,6 +10,7 @@
 #include "calib/diagnose/data/audit.h"
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/judge/corrected_draws.h"
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/findings.h"
 #include "calib/diagnose/judge/forward.h"
@@ -47,6 +48,7 @@ struct DiagnosisOptions {
   bool forward = true;
   std::optional<ControllerOptions> controller;
   std::vector<CommandedLog> commanded;
+  int samples = 0;  // robots to draw from what is known in the end
   Progress progress;
 };
 
@@ -83,6 +85,7 @@ struct GapDiagnosis {
   std::optional<ForwardGap> forward;
   MissingTerms ladder;  // what the file gives no joint at all
   CorrectedRobot corrected;
+  CorrectedDraws draws;  // of it; none where none were asked for
   std::vector<JointGap> joints;
   std::vector<TorqueTrace> traces;  // of what is held out, TraceHeldOut
   Unexplained unexplained;

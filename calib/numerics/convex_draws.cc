@@ -48,6 +48,15 @@ class Chain {
         u_(VectorXd::Zero(F_.cols())),
         axes_(MatrixXd::Identity(F_.cols(), F_.cols())) {}
 
+  // From another point, whose u is solved for in coordinates of variance 1.
+  void StartAt(const VectorXd& start, const VectorXd& stddev) {
+    const auto unscale = stddev.cwiseInverse().asDiagonal();
+    u_ = MatrixXd(unscale * F_)
+             .completeOrthogonalDecomposition()
+             .solve(unscale * (start - at_));
+    at_ = start;
+  }
+
   // Moves along every axis.
   void Sweep() {
     for (Eigen::Index k = 0; k < axes_.cols(); ++k) {
@@ -82,8 +91,12 @@ class Chain {
 }  // namespace
 
 MatrixXd DrawWithin(const VectorXd& mean, const MatrixXd& covariance,
-                    const RangeOnLine& range, int count, uint64_t seed) {
+                    const RangeOnLine& range, int count, uint64_t seed,
+                    const VectorXd& start) {
   Chain chain(mean, covariance, range, seed);
+  if (start.size() > 0) {
+    chain.StartAt(start, covariance.diagonal().cwiseSqrt());
+  }
   const int unknowns = static_cast<int>(mean.size());
   // In a narrow set steps are first as short as it is narrow. Those of s sweeps
   // spread sqrt(s) times as far along it as across it, which tells its axis to

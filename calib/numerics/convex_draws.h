@@ -15,8 +15,9 @@ using RangeOnLine = std::function<LineRange(const Eigen::VectorXd& at,
                                             const Eigen::VectorXd& along)>;
 
 // Draws from a normal distribution of this mean and covariance as far as it
-// lies in a convex set, of which `mean` is a point; a draw per column, the same
-// for the same seed.
+// lies in a convex set, of which `start` is a point, or `mean` where that is
+// empty; a draw per column, the same for the same seed. A mean outside the set
+// is what a peak is that the set cuts off.
 //
 // A Markov chain that moves along one line after the other (hit-and-run: Smith
 // 1984; Belisle, Romeijn and Smith 1993): on a line the distribution is a
@@ -26,6 +27,7 @@ using RangeOnLine = std::function<LineRange(const Eigen::VectorXd& at,
 // holds narrower than the covariance does so have lines of their own.
 Eigen::MatrixXd DrawWithin(const Eigen::VectorXd& mean,
                            const Eigen::MatrixXd& covariance,
-                           const RangeOnLine& range, int count, uint64_t seed);
+                           const RangeOnLine& range, int count, uint64_t seed,
+                           const Eigen::VectorXd& start = {});
 
 }  // namespace armcal

@@ -1,13 +1,10 @@
 #include "calib/refine/robot_draws.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 
 #include "calib/numerics/convex_draws.h"
+#include "calib/refine/possible_range.h"
 #include "calib/refine/robot_parameters.h"
 #include "model/robot/inertial_parameters.h"
 #include "model/text/format.h"
@@ -15,14 +12,7 @@
 namespace armcal {
 namespace {
 
-using Eigen::Matrix4d;
 using Eigen::VectorXd;
-
-// Narrows `range` to where numbers at + t * along are positive.
-void KeepPositive(double at, double along, LineRange* range) {
-  if (along < 0) range->most = std::min(range->most, at / -along);
-  if (along > 0) range->least = std::max(range->least, -at / along);
-}
 
 // Values of parameters at which a robot can exist.
 class PossibleRobots {
@@ -50,29 +40,15 @@ class PossibleRobots {
     }
   }
 
-  // The part of a line at + t along on which a robot can exist. A link's
-  // pseudo-inertia is C (1 + t D) C' with C C' the one at `at` and D = C^-1
-  // P(along) C^-T, positive as long as 1 + t lambda > 0 for all eigenvalues
-  // lambda of D (docs/theory.md, 3). The set is convex, so that there is one
-  // range.
+  // The part of a line on which a robot can exist.
   LineRange OnLine(const VectorXd& at, const VectorXd& along) const {
-    constexpr double kInside = 1 - 1e-9;  // of rounding at the ends
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    LineRange range = {-kInfinity, kInfinity};
-    for (const int k : positive_) KeepPositive(at[k], along[k], &range);
+    PossibleRange range;
+    for (const int k : positive_) range.KeepPositive(at[k], along[k]);
     for (const LinkPlaces& link : links_) {
-      const Vector10d change = link.Of(along, Vector10d::Zero());
-      if (change.isZero(0)) continue;
-      const Eigen::LLT<Matrix4d> factor(PseudoInertia(link.Of(at, link.held)));
-      const Matrix4d half =
-          factor.matrixL().solve(PseudoInertia(change)).transpose();
-      const Eigen::SelfAdjointEigenSolver<Matrix4d> relative(
-          Matrix4d(factor.matrixL().solve(half)), Eigen::EigenvaluesOnly);
-      for (const double lambda : relative.eigenvalues()) {
-        KeepPositive(1, lambda, &range);
-      }
+      range.KeepPossible(link.Of(at, link.held),
+                         link.Of(along, Vector10d::Zero()));
     }
-    return {kInside * range.least, kInside * range.most};
+    return range.range();
   }
 
  private:

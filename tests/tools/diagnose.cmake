@@ -94,6 +94,56 @@ tests_itself(cc -std=c99 -Wall -Wextra -Werror -DEFFECTS_TEST effects.c -lm
              -o effects_test)
 tests_itself(./effects_test)
 
+# Robots drawn from what it knows, each with its effects, which the module reads.
+run("drawn robots" diagnose ${robot} --log=rippled/log.csv
+    --validate=again/log.csv --noforward --modules=python
+    --export=samples:2,mjcf,mjcf_plain --out=drawn)
+expect_text(out "samples  2 robots")
+file(READ ${WORK_DIR}/drawn/diagnosis.json text)
+string(JSON value GET "${text}" samples count)
+if(NOT value EQUAL 2)
+  fail("diagnosis.json: ${value} samples")
+endif()
+file(GLOB found RELATIVE ${WORK_DIR}/drawn/samples ${WORK_DIR}/drawn/samples/*)
+list(SORT found)
+set(expected effects_1.json effects_2.json robot_1.urdf robot_1.xml
+    robot_1_plain.xml robot_2.urdf robot_2.xml robot_2_plain.xml)
+if(NOT found STREQUAL "${expected}")
+  fail("samples/ has ${found}, expected ${expected}")
+endif()
+file(STRINGS ${WORK_DIR}/drawn/samples.csv table)
+list(LENGTH table rows)
+list(GET table 0 header)
+if(NOT rows EQUAL 3 OR NOT header MATCHES
+   "\"link1.mass\".*\"effects.torque_ripple.joint2.sine\"")
+  fail("samples.csv: ${rows} rows, ${header}")
+endif()
+foreach(r 1 2)
+  file(READ ${WORK_DIR}/drawn/samples/effects_${r}.json text)
+  string(JSON effect GET "${text}" effects 0 effect)
+  string(JSON ripple_${r} GET "${text}" effects 0 parameters 0 value)
+  run("a drawn robot" inspect --robot=drawn/samples/robot_${r}.urdf)
+  if(code EQUAL 3 OR NOT effect STREQUAL torque_ripple)
+    fail("samples/ has a robot that is none, or with ${effect}")
+  endif()
+  execute_process(COMMAND ${python} -B -c "import effects
+effects.Effects('samples/effects_${r}.json', beside='urdf')"
+                  WORKING_DIRECTORY ${WORK_DIR}/drawn RESULT_VARIABLE result
+                  ERROR_VARIABLE said)
+  if(result)
+    fail("effects.py of samples/effects_${r}.json: ${said}")
+  endif()
+endforeach()
+if(ripple_1 STREQUAL ripple_2)
+  fail("two drawn robots have the same effect: ${ripple_1}")
+endif()
+run("none at all" diagnose ${robot} --log=rippled/log.csv --export=samples:0
+    --out=out)
+expect_refusal(2 "--export: found 'samples:0', expected samples:N with N robots")
+run("of measured poses" diagnose ${robot} --poses=poses.csv --export=samples:2
+    --out=out)
+expect_refusal(2 "--poses and --export: expected one of them")
+
 # A calibration: of a file whose masses and friction are wrong and that has no
 # armature, on one log of the true arm; then what other logs say is missing.
 file(READ ${WORK_DIR}/arm.yaml yaml)

@@ -66,7 +66,9 @@ DiagnoseOptions DiagnoseOptionsFromFlags(const CommandInput& input,
   options.verbose = flags.Switch("verbose");
   options.controller = flags.Text("controller");
   options.seed = SeedFromFlags(flags);
-  options.exports = ExportFormatsFromFlags(flags);
+  const ExportChoice exports = ExportFromFlags(flags);
+  options.exports = exports.formats;
+  options.samples = exports.samples;
   for (const std::string& name : SplitAtCommas(flags.Text("modules"))) {
     options.modules.push_back(kModules.Parse(name));
   }

@@ -103,6 +103,24 @@ TEST(ConvexDraws, ANarrowSetIsWalkedThrough) {
   EXPECT_NEAR(across.squaredNorm() / kMany / (width * width), 1. / 3, .02);
 }
 
+// A peak outside the set, cut off two deviations from it: of the part beyond
+// the mean is l = phi(2) / Q(2), the variance 1 + 2 l - l^2 (Johnson, Kotz &
+// Balakrishnan 1994), and one of correlation r follows by r l.
+TEST(ConvexDraws, OfAPeakOutsideTheSetTheTailIsLeft) {
+  constexpr double kLeft = 2.37322, kCorrelation = .8;
+  Matrix2d covariance;
+  covariance << 1, 100 * kCorrelation, 100 * kCorrelation, 1e4;
+  const auto beyond = [](const VectorXd& at, const VectorXd& along) {
+    return Positive(at.head(1), along.head(1));
+  };
+  const MatrixXd draws = DrawWithin(Vector2d(-2, 7), covariance, beyond, kMany,
+                                    1, Vector2d(5, -300));
+  EXPECT_GE(draws.row(0).minCoeff(), 0);
+  EXPECT_NEAR(draws.row(0).mean(), kLeft - 2, .03);
+  EXPECT_NEAR(Covariance(draws)(0, 0), 1 + 2 * kLeft - kLeft * kLeft, .015);
+  EXPECT_NEAR(draws.row(1).mean(), 7 + 100 * kCorrelation * kLeft, 5);
+}
+
 TEST(ConvexDraws, AreTheSameForTheSameSeed) {
   const auto draw = [](uint64_t seed) {
     return DrawWithin(Vector2d::Zero(), Matrix2d::Identity(), Positive, 3,
