@@ -9,6 +9,8 @@
 #include "calib/drive_gains/report.h"
 #include "calib/excite/motion_advice.h"
 #include "calib/excite/segment_selection.h"
+#include "calib/force_torque/report.h"
+#include "calib/force_torque/sensor.h"
 #include "calib/linear/calibrate_linear.h"
 #include "calib/linear/calibration_model.h"
 #include "calib/linear/calibration_report.h"
@@ -143,6 +145,8 @@ class TorqueCalibrator {
   void CorrectTrajectories();
   // False where a robot was asked for and there is none.
   bool Refine(nlohmann::json* json);
+  // What the sensor carries, where logs have its columns.
+  void AddForceTorque(nlohmann::json* json);
   void Draw();
 
   const LinearCalibration& linear() const { return *details_->linear; }
@@ -253,6 +257,15 @@ bool TorqueCalibrator::Refine(nlohmann::json* json) {
   return refined.converged() || !asked_for;
 }
 
+void TorqueCalibrator::AddForceTorque(nlohmann::json* json) {
+  if (!linear().solved || !training_->has_wrench()) return;
+  const ForceTorqueSensor sensor = EstimateForceTorqueSensor(
+      robot_, options_.progress, Prepare(*training_, linear().preparation));
+  if (sensor.samples == 0) return;
+  (*json)["force_torque_sensor"] = ForceTorqueJson(sensor);
+  summary_.report += ForceTorqueText(sensor);
+}
+
 // Of what is held out, where there is something.
 void TorqueCalibrator::Draw() {
   if (!options_.draw_torques || !linear().solved) return;
@@ -276,7 +289,9 @@ void TorqueCalibrator::Draw() {
 CalibrateSummary TorqueCalibrator::Run() {
   if (options_.progress) options_.progress("opening the logs", -1);
   if (!EstimateGains()) return summary_;
-  training_.emplace(input_.logs, options_.reading, input_.crop);
+  LogReaderOptions with_sensor = options_.reading;
+  with_sensor.want_wrench = true;
+  training_.emplace(input_.logs, with_sensor, input_.crop);
   const LogInput& validation = options_.validation;
   if (!validation.logs.empty()) {
     held_out_.emplace(validation.logs, options_.reading, validation.crop);
@@ -306,6 +321,7 @@ CalibrateSummary TorqueCalibrator::Run() {
   if (gains_) AddDriveGains(*gains_, &json);
   if (selection_) json["selection"] = ToJson(*selection_, *training_);
   const bool refined = Refine(&json);
+  AddForceTorque(&json);
   summary_.json = json.dump(2) + "\n";
   summary_.files.push_back({"calibration.json", summary_.json});
   summary_.files.push_back({"covariance.csv", CovarianceCsv(linear())});

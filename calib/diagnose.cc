@@ -10,6 +10,7 @@
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
 #include "calib/diagnosed_samples.h"
+#include "calib/force_torque/change.h"
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
@@ -193,6 +194,24 @@ void AddChanges(const LogChanges& changes, nlohmann::json* json,
   summary->report = before + summary->report + FullChanges(changes);
 }
 
+// What a force-torque sensor tells by itself, where the logs and a reference
+// have its columns: no part of the diagnosis' evidence.
+std::optional<ForceTorqueChange> ForceTorqueChangeOf(const Robot& robot,
+                                                     double bandwidth_hz,
+                                                     const Progress& progress,
+                                                     const LogSet& logs,
+                                                     const LogSet* reference) {
+  if (reference == nullptr || !logs.has_wrench() || !reference->has_wrench() ||
+      !CarriesForceTorque(robot)) {
+    return std::nullopt;
+  }
+  PreparationOptions preparation;
+  preparation.bandwidth_hz = bandwidth_hz;
+  return CompareForceTorque(
+      GatherForceTorque(robot, progress, Prepare(*reference, preparation)),
+      GatherForceTorque(robot, progress, Prepare(logs, preparation)));
+}
+
 void AddModules(const CorrectedRobot& corrected,
                 const std::vector<std::string>& names, nlohmann::json* json,
                 DiagnoseSummary* summary) {
@@ -212,6 +231,8 @@ void AddModules(const CorrectedRobot& corrected,
 
 DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
                           const std::optional<LogChanges>& changes,
+                          const std::optional<ForceTorqueChange>& sensor,
+                          const std::vector<std::string>& logs,
                           const GapDiagnosis& diagnosis) {
   DiagnoseSummary summary;
   const RobotExport corrected = ExportCorrectedRobot(
@@ -233,6 +254,10 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
                                         &json, &summary.files);
   summary.brief = BriefReport(diagnosis);
   if (changes) AddChanges(*changes, &json, &summary);
+  if (sensor) {
+    json["force_torque_sensor"] = ForceTorqueJson(*sensor, logs);
+    summary.report += ForceTorqueText(*sensor);
+  }
   summary.json = json.dump(2) + "\n";
   summary.files.push_back({"diagnosis.json", summary.json});
   summary.files.push_back({"robot.urdf", corrected.urdf});
@@ -257,7 +282,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   FormatsNamed(options.exports);  // refused before anything is calculated
   LogReaderOptions reading = options.reading;
   reading.joint_names = robot.JointNames();
-  reading.want_temperature = true;
+  reading.want_temperature = reading.want_wrench = true;
   if (options.progress) options.progress("opening the logs", -1);
   const std::vector<WrongClock> clocks =
       MendClocks(AllLogs(logs, options), &reading);
@@ -293,7 +318,11 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
       ChangesOf(robot, logs, reading, options);
   // They hold what is told of friction and offsets in fewer logs.
   if (changes && changes->refusal.empty()) details->drifts.clear();
-  DiagnoseSummary summary = Summarise(robot, options, changes, *details);
+  const std::optional<ForceTorqueChange> sensor = ForceTorqueChangeOf(
+      calibrated ? calibrated->robot : robot, details->bandwidth_hz,
+      options.progress, training, before);
+  DiagnoseSummary summary =
+      Summarise(robot, options, changes, sensor, NamesOf(logs.logs), *details);
   if (options.draw_torques) {
     summary.torques = std::make_shared<DrawnTorques>(
         Draw(*details, validation ? *validation : training));

@@ -41,6 +41,7 @@ set(rooms
     calib/drive_gains   # torque constants from logs with a known load
     calib/fleet         # many logs and robots by their factor files
     calib/verify        # the estimate against Simbody
+    calib/force_torque  # what a force-torque sensor on the arm carries
     calib/diagnose/data        # what a diagnosis is made from
     calib/diagnose/changes     # which parameters changed from log to log
     calib/diagnose/candidates  # effects that could explain a gap

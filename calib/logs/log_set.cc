@@ -21,6 +21,7 @@ LogSet::LogSet(const std::vector<LogSource>& sources,
     r.torque_source = r.rows.back().torque_source();
     r.torque_constants_stddev = std::max(
         r.torque_constants_stddev, r.rows.back().torque_constants_stddev());
+    r.has_wrench = r.has_wrench || r.rows.back().has_wrench();
     const auto found = log_options.reconstructed_torque.find(source.name);
     r.reconstructed.push_back(found == log_options.reconstructed_torque.end()
                                   ? nullptr
@@ -53,6 +54,8 @@ double LogSet::torque_constants_stddev() const {
 const ReconstructedTorque* LogSet::reconstructed_torque(int log) const {
   return recorded_->reconstructed[log].get();
 }
+
+bool LogSet::has_wrench() const { return recorded_->has_wrench; }
 
 const std::shared_ptr<MemoryBudget>& LogSet::memory() const {
   return recorded_->memory;

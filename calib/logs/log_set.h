@@ -42,6 +42,8 @@ class LogSet {
   // Relative standard deviation of each joint's torque scale, one factor in all
   // logs of the robot: the largest of the logs'.
   double torque_constants_stddev() const;
+  // Whether any log has a force-torque sensor's columns, which were wanted.
+  bool has_wrench() const;
   // What a log has instead of recorded torques; null where it has these.
   const ReconstructedTorque* reconstructed_torque(int log) const;
   // What passes may keep what they made in.

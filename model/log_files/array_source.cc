@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "model/log_files/columns/log_signal.h"
+#include "model/log_files/columns/wrench_columns.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 
@@ -104,9 +105,13 @@ void ArraySource::NoteUnused(const LogArray& array, const std::string& why) {
 void ArraySource::AddToHeader(const LogArray& array) {
   const SignalNames* const signal = FindSignal(array.name);
   const bool named = static_cast<long>(joints_.size()) == array.columns;
+  const bool wrench =
+      array.name == kWrenchArray && array.columns == kWrenchColumns;
   for (long k = 0; k < array.columns; ++k) {
     std::string column = array.name;
-    if (signal != nullptr) {
+    if (wrench) {
+      column = kWrenchNames[k];
+    } else if (signal != nullptr) {
       column = named
                    ? joints_[k] + "/" + std::string(signal->path_part)
                    : std::string(signal->number_prefix) + std::to_string(k + 1);

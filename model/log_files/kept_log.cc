@@ -10,7 +10,8 @@ constexpr int kBlockRows = 4096;
 std::size_t BytesOf(const Log& log) {
   const Eigen::Index numbers = log.t.size() + log.q.size() + log.qd.size() +
                                log.qdd.size() + log.tau.size() +
-                               log.qref.size() + log.temperature.size();
+                               log.qref.size() + log.temperature.size() +
+                               log.wrench.size();
   return sizeof(Log) + static_cast<std::size_t>(numbers) * sizeof(double);
 }
 
@@ -24,6 +25,7 @@ KeptLog::KeptLog(const LogSource& source, const LogReaderOptions& options,
       blocks_(std::move(budget)) {
   torque_source_ = reader_->torque_source();
   torque_constants_stddev_ = reader_->torque_constants_stddev();
+  has_wrench_ = reader_->has_wrench();
   blocks_.Begin();
 }
 

@@ -16,8 +16,11 @@ struct Log {
   Eigen::MatrixXd tau;          // N m or N, on the joint side
   Eigen::MatrixXd qref;         // rad or m, what the controller was to follow
   Eigen::MatrixXd temperature;  // deg C, of the joints
-  bool simulated = false;       // the log says that a simulation has written it
-  long first_row = 0;  // the first sample's line in the file, header = 1
+  // Of a force-torque sensor, in its own axes, 6 columns: fx, fy, fz (N), tx,
+  // ty, tz (N m).
+  Eigen::MatrixXd wrench;
+  bool simulated = false;  // the log says that a simulation has written it
+  long first_row = 0;      // the first sample's line in the file, header = 1
 
   int size() const { return static_cast<int>(t.size()); }
 };

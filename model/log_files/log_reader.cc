@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "model/log_files/columns/log_columns.h"
+#include "model/log_files/columns/wrench_columns.h"
 #include "model/log_files/line_source.h"
 #include "model/log_files/log_row.h"
 #include "model/log_files/open_lines.h"
@@ -60,6 +61,10 @@ struct LogReader::Impl {
     }
     if (options.want_temperature && columns.HasAll(Signal::kTemperature)) {
       temperature = row.Use(columns.Find(Signal::kTemperature));
+    }
+    if (options.want_wrench) {
+      const std::vector<LogColumn> six = FindWrench(path, columns);
+      if (!six.empty()) wrench = row.Use(six);
     }
     if (!options.need_torque) return;
     const auto found = options.reconstructed_torque.find(path);
@@ -224,15 +229,19 @@ struct LogReader::Impl {
         reconstructed != nullptr ? ReconstructedTorques(rows) : Signals(tau);
     log->qref = Signals(qref);
     log->temperature = Signals(temperature);
+    log->wrench = Values(wrench, kWrenchColumns);
     return true;
   }
 
-  Eigen::MatrixXd Signals(int place) const {
+  Eigen::MatrixXd Signals(int place) const { return Values(place, joints); }
+
+  // The `count` values of each row that stand together from `place` on.
+  Eigen::MatrixXd Values(int place, int count) const {
     using RowMajor =
         Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     if (place == kUnused) return {};
     return Eigen::Map<const RowMajor>(values.data(), times.size(), row.width())
-        .middleCols(place, joints);
+        .middleCols(place, count);
   }
 
   // Both of the next `count` rows.
@@ -272,7 +281,7 @@ struct LogReader::Impl {
   LogRow row;
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
   int qref = kUnused;
-  int temperature = kUnused;
+  int temperature = kUnused, wrench = kUnused;
   std::string torque_source;
   UnscaledDrives unscaled;
   double torque_constants_stddev = 0;
@@ -306,6 +315,8 @@ bool LogReader::has_velocity() const {
 bool LogReader::has_torque() const {
   return impl_->tau != Impl::kUnused || impl_->reconstructed != nullptr;
 }
+
+bool LogReader::has_wrench() const { return impl_->wrench != Impl::kUnused; }
 
 bool LogReader::has_acceleration() const {
   return impl_->columns.HasAll(Signal::kAcceleration);

@@ -20,14 +20,14 @@ struct UnscaledDrives;
 // a leading path
 // (/joint_states/shoulder/position). A unit suffix is honoured: [s] [ms] [us]
 // [ns] [rad] [deg] [rad/s] [deg/s] [rad/s^2] [deg/s^2] [m] [mm] [m/s] [mm/s]
-// [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA]
-// [V] [mV]; without one the unit is SI.
-// An effort in A is a current, in V a voltage. Other spellings are understood,
-// too, where time and all positions come out (column_spelling.h). Order never
-// matters, names do; columns that are not used are not parsed. Separators , ;
-// or TAB; CRLF, a byte order mark, quoted names and a # before the header are
-// accepted. Times may be large (epoch): they are kept relative to the first
-// row's without loss. Equal times pass.
+// [m/s^2] [mm/s^2] [Nm] [N] [mNm] [kNm] [A] [mA] [V] [mV]; without one the unit
+// is SI. An effort in A is a current, in V a voltage. A force-torque sensor has
+// six columns (wrench_columns.h). Other spellings are understood, too, where
+// time and all positions come out (column_spelling.h). Order never matters,
+// names do; columns that are not used are not parsed. Separators , ; or TAB;
+// CRLF, a byte order mark, quoted names and a # before the header are accepted.
+// Times may be large (epoch): they are kept relative to the first row's without
+// loss. Equal times pass.
 //
 // Throws InputError with file, row, column, value and expectation: a missing or
 // duplicate column, a log that numbers more joints than the robot has, a field
@@ -45,6 +45,7 @@ class LogReader {
   bool has_velocity() const;  // a velocity column for every joint
   bool has_acceleration() const;
   bool has_torque() const;  // that is read
+  bool has_wrench() const;  // of a force-torque sensor, that is read
   // How the torque was made, a phrase for reports: "tau columns" or
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;

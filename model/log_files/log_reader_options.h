@@ -63,6 +63,7 @@ struct LogReaderOptions {
   bool want_acceleration = false;
   bool want_reference = false;
   bool want_temperature = false;
+  bool want_wrench = false;  // of a force-torque sensor
 };
 
 }  // namespace armcal

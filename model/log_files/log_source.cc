@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "model/log_files/columns/wrench_columns.h"
+
 namespace armcal {
 namespace {
 
@@ -30,6 +32,7 @@ std::vector<LogArray> ArraysOf(const Log& log) {
   AddSignal("tau", log.tau, &arrays);
   AddSignal("qref", log.qref, &arrays);
   AddSignal("temp", log.temperature, &arrays);
+  AddSignal(kWrenchArray, log.wrench, &arrays);
   return arrays;
 }
 

@@ -6,6 +6,7 @@
 
 #include "model/log_files/columns/log_columns.h"
 #include "model/log_files/columns/log_signal.h"
+#include "model/log_files/columns/wrench_columns.h"
 
 namespace armcal {
 
@@ -46,17 +47,22 @@ std::string LogText(const Log& log, const LogWriterOptions& options) {
               std::to_string(j + 1);
     }
   }
+  for (int j = 0; j < log.wrench.cols(); ++j) {
+    text += std::string(",") + kWrenchNames[j];
+  }
   if (log.simulated) text += std::string(",") + LogColumns::kSimulated;
   char number[40];
+  const auto add_row = [&](const Eigen::MatrixXd& values, int k) {
+    for (int j = 0; j < values.cols(); ++j) {
+      text.append(number,
+                  std::snprintf(number, sizeof number, ",%.9g", values(k, j)));
+    }
+  };
   for (int k = 0; k < log.size(); ++k) {
     text += '\n';
     text.append(number, std::snprintf(number, sizeof number, "%.6f", log.t[k]));
-    for (const Column& column : columns) {
-      for (int j = 0; j < column.values.cols(); ++j) {
-        text.append(number, std::snprintf(number, sizeof number, ",%.9g",
-                                          column.values(k, j)));
-      }
-    }
+    for (const Column& column : columns) add_row(column.values, k);
+    add_row(log.wrench, k);
     if (log.simulated) text += ",1";
   }
   return text + "\n";

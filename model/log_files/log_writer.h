@@ -14,8 +14,8 @@ struct LogWriterOptions {
 };
 
 // The log as CSV (columns t, q1.., and what else it holds of qd, tau or i,
-// qref, temp and whether it is simulated): microseconds, nine digits. LogReader
-// reads it back.
+// qref, temp, fx.. and whether it is simulated): microseconds, nine digits.
+// LogReader reads it back.
 std::string LogText(const Log& log, const LogWriterOptions& options = {});
 
 }  // namespace armcal

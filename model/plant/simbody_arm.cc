@@ -208,6 +208,32 @@ Eigen::VectorXd SimbodyArm::InverseDynamics(const Eigen::VectorXd& q,
   return FromVector(impl_->Residual(acceleration));
 }
 
+// Each joint's acceleration is prescribed; the reaction is given at the
+// mobilizer's outboard frame M, in ground, and moved to Lo.
+Eigen::Matrix<double, 6, 1> SimbodyArm::LastReaction(
+    const Eigen::VectorXd& q, const Eigen::VectorXd& qd,
+    const Eigen::VectorXd& qdd) {
+  Impl& s = *impl_;
+  s.Set(q, qd);
+  SimTK::State state = s.state;
+  for (int i = 0; i < num_joints(); ++i) {
+    s.matter.getMobilizedBody(s.links[i])
+        .lockAt(state, qdd[i], SimTK::Motion::Acceleration);
+  }
+  s.system.realize(state, SimTK::Stage::Acceleration);
+  SimTK::Vector_<SimTK::SpatialVec> reactions;
+  s.matter.calcMobilizerReactionForces(state, reactions);
+  const SimTK::MobilizedBody& last = s.matter.getMobilizedBody(s.links.back());
+  const SimTK::SpatialVec& at_M = reactions[s.links.back()];
+  const SimTK::Rotation& R_GL = last.getBodyRotation(state);
+  const SimTK::Vec3 force = ~R_GL * at_M[1];
+  const SimTK::Vec3 moment =
+      ~R_GL * at_M[0] + last.getOutboardFrame(state).p() % force;
+  Eigen::Matrix<double, 6, 1> wrench;
+  wrench << force[0], force[1], force[2], moment[0], moment[1], moment[2];
+  return wrench;
+}
+
 Eigen::MatrixXd SimbodyArm::MassMatrix(const Eigen::VectorXd& q) {
   impl_->Set(q, Eigen::VectorXd::Zero(q.size()));
   impl_->system.realize(impl_->state, SimTK::Stage::Position);

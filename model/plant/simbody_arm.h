@@ -28,6 +28,12 @@ class SimbodyArm : public ArmDynamics {
   Eigen::VectorXd InverseDynamics(const Eigen::VectorXd& q,
                                   const Eigen::VectorXd& qd,
                                   const Eigen::VectorXd& qdd);
+  // What the last joint gives to its link, (force, N; moment about Lo, N m)
+  // expressed in the link's frame L, while the arm moves so: Simbody's reaction
+  // of that mobilizer, gravity taken into account.
+  Eigen::Matrix<double, 6, 1> LastReaction(const Eigen::VectorXd& q,
+                                           const Eigen::VectorXd& qd,
+                                           const Eigen::VectorXd& qdd);
   Eigen::MatrixXd MassMatrix(const Eigen::VectorXd& q);
   Eigen::VectorXd GravityTorque(const Eigen::VectorXd& q);  // holds the arm
   // J; the potential energy's zero is that of masses at Wo.

@@ -33,6 +33,8 @@ struct Trajectory {
   Eigen::MatrixXd tau;  // N m or N, up to kTorqueBand, without outliers
   Eigen::MatrixXd tau_recorded;  // the same with its outliers
   Eigen::MatrixXd temperature;   // deg C; empty: not recorded, or not wanted
+  // Log::wrench (N, N m), low-passed as q is; empty: not recorded, not wanted.
+  Eigen::MatrixXd wrench;
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
   // over 0.2 s of positions low-passed at kTorqueBand times the bandwidth,
   // which rings less after a stop than `qd`.

@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "model/log_files/columns/column_words.h"
 #include "model/log_files/columns/log_signal.h"
 #include "model/log_files/columns/signal_phrases.h"
 
@@ -15,24 +16,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)); }
 bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)); }
-
-// Runs of letters and of digits, in lower case.
-Words WordsOf(std::string_view text) {
-  Words words;
-  char before = ' ';
-  for (const char c : text) {
-    const bool goes_on =
-        (IsLetter(c) && IsLetter(before)) || (IsDigit(c) && IsDigit(before));
-    if (IsLetter(c) || IsDigit(c)) {
-      if (!goes_on) words.emplace_back();
-      words.back() += static_cast<char>(std::tolower(c));
-    }
-    before = c;
-  }
-  return words;
-}
 
 // A name without its unit, which is in brackets of either kind behind it, or
 // its last word. What is no unit stays.
@@ -93,7 +77,7 @@ class Speller {
 
   std::optional<Understood> Understand(const std::string& name) const {
     Understood column;
-    Words words = WordsOf(WithoutUnit(name, &column.unit));
+    Words words = ColumnWords(WithoutUnit(name, &column.unit));
     int before = 0;  // words before the joint's name
     if (!FindJoint(&words, &column, &before)) return std::nullopt;
     std::optional<Signal> signal = SignalOf(Joined(words));
@@ -117,14 +101,14 @@ class Speller {
     for (size_t i = 0; i < joint_names_.size(); ++i) {
       Words rest = *words;
       if (joint_names_[i].size() <= longest ||
-          TakeOut(WordsOf(joint_names_[i]), &rest) < 0) {
+          TakeOut(ColumnWords(joint_names_[i]), &rest) < 0) {
         continue;
       }
       longest = joint_names_[i].size();
       named = static_cast<int>(i) + 1;
     }
     if (named > 0) {
-      *before = TakeOut(WordsOf(joint_names_[named - 1]), words);
+      *before = TakeOut(ColumnWords(joint_names_[named - 1]), words);
       column->number = named;
       return true;
     }
@@ -150,7 +134,7 @@ class Speller {
 // A name of the time: "Time (s)", "timestamp_ns"; rostopic's "%time" is in ns.
 std::optional<std::string> TimeName(const std::string& name) {
   std::string unit;
-  const Words words = WordsOf(WithoutUnit(name, &unit));
+  const Words words = ColumnWords(WithoutUnit(name, &unit));
   if (words.size() != 1) return std::nullopt;
   const std::string& word = words[0];
   const bool is_other = word == "sec" || word == "seconds" || word == "stamp";
