@@ -12,8 +12,6 @@
 namespace armcal {
 namespace {
 
-using Samples = std::vector<ForceTorqueSample>;
-
 constexpr double kInterval = 1.96;  // standard deviations, 95 %
 
 // Of a sample's six residuals in units of their noise, and of its force, N.
@@ -22,7 +20,7 @@ struct ResidualLength {
 };
 
 std::vector<ResidualLength> LengthsOf(const ForceTorqueFit& fit,
-                                      const Samples& samples) {
+                                      const ForceTorqueSamples& samples) {
   std::vector<ResidualLength> lengths;
   for (const ForceTorqueSample& s : samples) {
     const Vector6d r = s.wrench - fit.model.Predict(s.motion);
@@ -32,7 +30,7 @@ std::vector<ResidualLength> LengthsOf(const ForceTorqueFit& fit,
 }
 
 double ContactThreshold(const ForceTorqueFit& reference,
-                        const Samples& samples) {
+                        const ForceTorqueSamples& samples) {
   constexpr double kNormal = 6.19;  // chi of six coordinates, one in 10^6
   constexpr double kMargin = 2, kShare = .99;
   std::vector<double> relative;
@@ -44,7 +42,7 @@ double ContactThreshold(const ForceTorqueFit& reference,
 
 std::vector<ForceTorqueContact> FindContacts(
     const std::vector<ResidualLength>& lengths, double threshold,
-    const Samples& samples) {
+    const ForceTorqueSamples& samples) {
   constexpr double kApart = .25, kShortest = .05;  // s
   std::vector<ForceTorqueContact> all;
   for (size_t k = 0; k < samples.size(); ++k) {
@@ -66,8 +64,8 @@ std::vector<ForceTorqueContact> FindContacts(
 
 }  // namespace
 
-ForceTorqueChange CompareForceTorque(const Samples& before,
-                                     const Samples& now) {
+ForceTorqueChange CompareForceTorque(const ForceTorqueSamples& before,
+                                     const ForceTorqueSamples& now) {
   ForceTorqueChange change;
   change.before = EstimateForceTorqueSensor(before);
   change.now = EstimateForceTorqueSensor(now);

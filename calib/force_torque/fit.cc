@@ -18,7 +18,6 @@ using Eigen::Vector3d;
 using Unknowns = ForceTorqueModel::Unknowns;
 using Information = Eigen::Matrix<double, ForceTorqueModel::kUnknowns,
                                   ForceTorqueModel::kUnknowns>;
-using Samples = std::vector<ForceTorqueSample>;
 using Residuals = Eigen::Matrix<double, Eigen::Dynamic, 6>;
 
 // The inertial parameters' derivatives by the mass, the centre of mass and the
@@ -42,7 +41,8 @@ std::vector<InertialParameters> LoadDerivatives(const ForceTorqueModel& m) {
   return all;
 }
 
-Residuals Left(const ForceTorqueModel& model, const Samples& samples) {
+Residuals Left(const ForceTorqueModel& model,
+               const ForceTorqueSamples& samples) {
   Residuals left(static_cast<Eigen::Index>(samples.size()), 6);
   for (size_t k = 0; k < samples.size(); ++k) {
     left.row(static_cast<Eigen::Index>(k)) =
@@ -52,7 +52,7 @@ Residuals Left(const ForceTorqueModel& model, const Samples& samples) {
 }
 
 // Not below what rounding of the recorded numbers makes.
-Vector6d RobustNoise(const Residuals& left, const Samples& samples) {
+Vector6d RobustNoise(const Residuals& left, const ForceTorqueSamples& samples) {
   constexpr double kNormal = 1.4826;  // standard deviations per median
   constexpr double kRounding = 1e-7;
   Vector6d size = Vector6d::Zero();
@@ -100,7 +100,7 @@ Eigen::MatrixXd SolveScaled(const Information& A, const Eigen::MatrixXd& b) {
 
 // One Gauss-Newton step, in units of the noise.
 Unknowns StepOf(const ForceTorqueModel& model, const Vector6d& noise,
-                RobustLoss loss, const Samples& samples) {
+                RobustLoss loss, const ForceTorqueSamples& samples) {
   Information A = PriorInformation(model.mass);
   Unknowns b = Unknowns::Zero();
   b.segment<6>(ForceTorqueModel::kInertia) =
@@ -125,7 +125,7 @@ Unknowns StepOf(const ForceTorqueModel& model, const Vector6d& noise,
 
 // The samples' autocorrelation from one to the next, the largest of the six
 // channels'.
-double LagOne(const Residuals& left, const Samples& samples) {
+double LagOne(const Residuals& left, const ForceTorqueSamples& samples) {
   double most = 0;
   for (int c = 0; c < 6; ++c) {
     double product = 0, square = 0;
@@ -155,7 +155,7 @@ double FixedShareExpansion(int window, long count) {
 
 // The sandwich H^-1 (S + P) H^-1, H = sum slope J'J + P, P the prior's.
 // Windows are twice as long as Andrews' optimum, for less of a bias.
-void SetCovariance(const Samples& samples, RobustLoss loss,
+void SetCovariance(const ForceTorqueSamples& samples, RobustLoss loss,
                    ForceTorqueFit* fit) {
   constexpr int kLeastWindow = 8;  // the low pass makes four or so follow
   const ForceTorqueModel& model = fit->model;
@@ -244,7 +244,7 @@ ForceTorqueModel ForceTorqueModel::Moved(const Unknowns& step) const {
 }
 
 ForceTorqueFit FitForceTorque(const ForceTorqueModel& start,
-                              const Samples& samples) {
+                              const ForceTorqueSamples& samples) {
   constexpr int kMostSteps = 30;
   constexpr double kSmallStep = 1e-4;  // of the noise of the estimate
   ForceTorqueFit fit;

@@ -19,6 +19,7 @@ struct ForceTorqueSample {
   RigidMotion motion;                  // of the last link's frame L
   Vector6d wrench = Vector6d::Zero();  // force, N; torque, N m
 };
+using ForceTorqueSamples = std::vector<ForceTorqueSample>;
 
 // Those of all logs that have the sensor's columns (LogReaderOptions::
 // want_wrench), in order of time. What was low-passed at a bandwidth is taken

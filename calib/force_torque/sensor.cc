@@ -13,7 +13,6 @@ namespace armcal {
 namespace {
 
 using Eigen::Matrix3d;
-using Samples = std::vector<ForceTorqueSample>;
 
 constexpr int kFewestDirections = 2;
 
@@ -30,7 +29,8 @@ Matrix3d RotationOf(const Matrix3d& M, double sign) {
 
 // Nothing where no load of a positive mass fits.
 std::optional<ForceTorqueFit> FitWithSign(const ForceTorqueStart& start,
-                                          double sign, const Samples& samples) {
+                                          double sign,
+                                          const ForceTorqueSamples& samples) {
   ForceTorqueModel model;
   model.sign = sign;
   model.mass = start.mass;
@@ -42,7 +42,7 @@ std::optional<ForceTorqueFit> FitWithSign(const ForceTorqueStart& start,
 
 // By which factor a log likelihood ratio is too large, as samples follow each
 // other: the largest autocorrelation time of what is left.
-double WorstTime(const ForceTorqueFit& fit, const Samples& samples) {
+double WorstTime(const ForceTorqueFit& fit, const ForceTorqueSamples& samples) {
   double worst = 1;
   std::vector<double> left(samples.size());
   for (int c = 0; c < 6; ++c) {
@@ -56,8 +56,8 @@ double WorstTime(const ForceTorqueFit& fit, const Samples& samples) {
 
 // The likelier of both fits; says where they are nearly as likely.
 void Choose(const std::optional<ForceTorqueFit>& on,
-            const std::optional<ForceTorqueFit>& of, const Samples& samples,
-            ForceTorqueSensor* sensor) {
+            const std::optional<ForceTorqueFit>& of,
+            const ForceTorqueSamples& samples, ForceTorqueSensor* sensor) {
   constexpr double kSure = 9;  // twice the log likelihood ratio
   if (!on && !of) {
     sensor->not_told.push_back(
@@ -105,7 +105,7 @@ bool CarriesForceTorque(const Robot& robot) {
              [](const Link& link) { return link.unknown_lengths.empty(); });
 }
 
-ForceTorqueSensor EstimateForceTorqueSensor(const Samples& samples) {
+ForceTorqueSensor EstimateForceTorqueSensor(const ForceTorqueSamples& samples) {
   ForceTorqueSensor sensor;
   sensor.samples = static_cast<long>(samples.size());
   if (samples.empty()) return sensor;
