@@ -6,12 +6,12 @@
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/changed_friction.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/contact_finding.h"
 #include "calib/diagnose/judge/description.h"
 #include "calib/diagnose/judge/dissipation.h"
+#include "calib/diagnose/judge/joint_agreement.h"
 #include "model/effects/effects.h"
 
 namespace armcal {

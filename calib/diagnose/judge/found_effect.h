@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/evidence.h"
+#include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/probability.h"
 #include "calib/diagnose/select/contacts.h"
 #include "calib/diagnose/select/reference_scatter.h"

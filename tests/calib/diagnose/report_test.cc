@@ -93,12 +93,12 @@ TEST(FullReport, SaysWhereJointsDisagree) {
   delay.stddev = {.001};
   delay.joint_sizes = {{0, .012, .001}, {1, -.001, .002}};
   diagnosis.unnamed = {delay};
-  EXPECT_THAT(FullReport(diagnosis, true),
-              HasSubstr("\n         its joints disagree: " +
-                        diagnosis.joints[0].name + " 0.012 +- 0.001 s, " +
-                        diagnosis.joints[1].name +
-                        " -0.001 +- 0.002 s\n         which may be friction "
-                        "that lags at reversals"));
+  EXPECT_THAT(
+      FullReport(diagnosis, true),
+      HasSubstr("\n         its joints disagree: " + diagnosis.joints[0].name +
+                " 0.012 +- 0.001 s, " + diagnosis.joints[1].name +
+                " -0.001 +- 0.002 s\n         which may be friction "
+                "that lags at reversals"));
   const nlohmann::json unnamed = ToJson(diagnosis)["fitted_not_named"][0];
   EXPECT_EQ(unnamed["joint_sizes"][1]["joint_index"], 2);
   EXPECT_EQ(unnamed["joint_sizes"][0]["value"], .012);
