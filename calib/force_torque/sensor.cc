@@ -18,7 +18,8 @@ constexpr int kFewestDirections = 2;
 
 // The rotation R that brings |s R - M| to its least in the directions that are
 // told (Procrustes; Kabsch 1976): U diag(1, 1, det(U V')) V' of the singular
-// values of s M. A direction that is not told follows from the other two.
+// values of s M. A direction that is not told follows from the other two. Not
+// NearestRotation(), which takes -M for a reflection: the sign is s here.
 Matrix3d RotationOf(const Matrix3d& M, double sign) {
   const Eigen::JacobiSVD<Matrix3d> svd(
       sign * M, Eigen::ComputeFullU | Eigen::ComputeFullV);
