@@ -7,8 +7,10 @@ Dask cluster: armcal reduce on each log, armcal merge of all (docs/fleet.md).
 
 --table is a CSV with the columns log, unit and date. Without --scheduler the
 workers are processes on this machine, one for each core. Needs the Python
-package armcal and Debian's python3-distributed. Exit codes: 0 all logs are in
-the result; 1 some were refused, or the verdict is negative; 3 nothing came out.
+package armcal and Debian's python3-distributed. What an earlier run made in
+--out is taken over (factors/manifest.jsonl). Exit codes: 0 all logs are in the
+result; 1 some were refused, or the verdict is negative; 3 nothing came out;
+130 interrupted.
 """
 
 import argparse
@@ -73,6 +75,10 @@ def main():
     except (ValueError, OSError) as error:
         print(f"fleet.py: {error}", file=sys.stderr)
         return 3
+    except KeyboardInterrupt:
+        print(f"\nfleet.py: interrupted; what is reduced is in {given.out}/factors,"
+              " and the same command goes on from there", file=sys.stderr)
+        return 130
     print(result.report(), end="")
     for why in refused.values():
         print(f"fleet.py: left out: {why}", file=sys.stderr)

@@ -1,5 +1,7 @@
 #include "calib/numerics/mixed_model.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -88,39 +90,54 @@ MatrixXd MixedModel::Posterior(int u, const VectorXd& root) const {
   return root.asDiagonal() * inner.llt().solve(one) * root.asDiagonal();
 }
 
+// A unit's part of the normal equations is threads' work; parts are summed in
+// the order of the units, so that the sum does not depend on who made them.
 void MixedModel::SolveFixed(const std::vector<bool>& left_out) {
-  const Eigen::Index p = units_[0].A.rows();
-  MatrixXd H = MatrixXd::Zero(p, p);
-  VectorXd right = VectorXd::Zero(p);
-  posteriors_.clear();
-  for (size_t u = 0; u < units_.size(); ++u) {
+  posteriors_.resize(units_.size());
+  std::vector<MatrixXd> H(units_.size());
+  std::vector<VectorXd> right(units_.size());
+  tbb::parallel_for(0, size(), [&](int u) {
     const Unit& unit = units_[u];
-    posteriors_.push_back(Posterior(static_cast<int>(u), root_));
+    posteriors_[u] = Posterior(u, root_);
+    if (left_out[u]) return;
+    const MatrixXd BV = unit.B * posteriors_[u];
+    H[u] = unit.A - BV * unit.B.transpose();
+    right[u] = unit.fixed_right - BV * unit.right;
+  });
+  const Eigen::Index p = units_[0].A.rows();
+  MatrixXd all_H = MatrixXd::Zero(p, p);
+  VectorXd all_right = VectorXd::Zero(p);
+  for (size_t u = 0; u < units_.size(); ++u) {
     if (left_out[u]) continue;
-    const MatrixXd BV = unit.B * posteriors_.back();
-    H += unit.A - BV * unit.B.transpose();
-    right += unit.fixed_right - BV * unit.right;
+    all_H += H[u];
+    all_right += right[u];
   }
-  Invert(H, &covariance_, &determined_);
-  fixed_ = covariance_ * right;
+  Invert(all_H, &covariance_, &determined_);
+  fixed_ = covariance_ * all_right;
 }
 
 // One step of the fixed point; the largest change of log T.
 double MixedModel::UpdateSpread(const std::vector<bool>& left_out) {
   constexpr double kNone = 1e-4;  // of what one unit's data tell apart
   const Eigen::Index m = root_.size();
-  VectorXd squares = VectorXd::Zero(m), freedom = VectorXd::Zero(m);
-  for (size_t u = 0; u < units_.size(); ++u) {
-    if (left_out[u]) continue;
+  // A column per unit; 0 of those left out.
+  MatrixXd square = MatrixXd::Zero(m, size()), free = square;
+  tbb::parallel_for(0, size(), [&](int u) {
+    if (left_out[u]) return;
     const Unit& unit = units_[u];
     const MatrixXd& V = posteriors_[u];
     const MatrixXd G = V * unit.B.transpose();
     const VectorXd d = V * unit.right - G * fixed_;
     const VectorXd variance =
         V.diagonal() + (G * covariance_).cwiseProduct(G).rowwise().sum();
-    squares += d.cwiseAbs2();
-    freedom += VectorXd::Ones(m) -
-               variance.cwiseQuotient(root_.cwiseAbs2().cwiseMax(1e-300));
+    square.col(u) = d.cwiseAbs2();
+    free.col(u) = VectorXd::Ones(m) -
+                  variance.cwiseQuotient(root_.cwiseAbs2().cwiseMax(1e-300));
+  });
+  VectorXd squares = VectorXd::Zero(m), freedom = VectorXd::Zero(m);
+  for (int u = 0; u < size(); ++u) {
+    squares += square.col(u);
+    freedom += free.col(u);
   }
   double change = 0;
   for (Eigen::Index k = 0; k < m; ++k) {

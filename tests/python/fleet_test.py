@@ -1,5 +1,6 @@
 """Fleets: what is planted is found, whoever reduces the logs."""
 
+import contextlib
 import hashlib
 import logging
 import os
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import armcal
 from armcal.fleet import read_table, reduce_logs
@@ -23,8 +25,36 @@ TOOL = pathlib.Path(__file__).parents[2] / "tools" / "fleet.py"
 SETTINGS = [f"{name}={value}" for name, value in fleet_units.MODEL.items()]
 
 
+@contextlib.contextmanager
+def cluster_of(workers, **options):
+    with distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1,
+            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL,
+            **options) as cluster, distributed.Client(cluster) as client:
+        yield client
+
+
 def digest(path):
     return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest()
+
+
+class Deadly(distributed.WorkerPlugin if distributed else object):
+    """A worker that tries to reduce this log ends without a word, as one does
+    that the system stops for want of memory."""
+
+    def __init__(self, log):
+        self.log = log
+
+    def setup(self, worker):
+        from armcal import fleet
+        reduce_one = fleet.reduce_one
+
+        def deadly(robot, recording, *how):
+            if recording.log == self.log:
+                os._exit(9)
+            return reduce_one(robot, recording, *how)
+
+        fleet.reduce_one = deadly
 
 
 class Fleet(unittest.TestCase):
@@ -107,10 +137,7 @@ class Fleet(unittest.TestCase):
                 killed.append(pid)
                 os.kill(pid, 9)
 
-        with distributed.LocalCluster(
-                n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0",
-                silence_logs=logging.CRITICAL) as cluster, distributed.Client(
-                    cluster) as client:
+        with cluster_of(2) as client:
             files, refused = reduce_logs(
                 client, self.robot, recordings, str(self.folder / "killed"),
                 like=sorted(map(str, self.folder.glob("factors/*")))[0],
@@ -122,6 +149,69 @@ class Fleet(unittest.TestCase):
             {pathlib.Path(path).name: digest(path) for path in files},
             {path.name: digest(path)
              for path in self.folder.glob("factors/*")})
+
+    @unittest.skipIf(distributed is None, "python3-distributed is not here")
+    def test_goes_on_after_an_interruption(self):
+        folder = self.folder / "resumed"
+        recordings = read_table(self.folder / "units.csv")
+
+        def stop(count, _total):
+            if count == 9:
+                raise KeyboardInterrupt
+
+        def reduce_all(client, done=None, **changed):
+            told = []
+            files, refused = reduce_logs(
+                client, self.robot, recordings, str(folder),
+                done=done or (lambda count, total: told.append(count)),
+                **{**fleet_units.MODEL, **changed})
+            self.assertEqual((len(files), refused), (24, {}))
+            self.assertEqual(told, list(range(1, 25)))
+            return {pathlib.Path(path).name: digest(path) for path in files}
+
+        def times():
+            return {path.name: path.stat().st_mtime_ns
+                    for path in folder.glob("*.factor")}
+
+        expected = {path.name: digest(path)
+                    for path in self.folder.glob("factors/*")}
+        with cluster_of(2) as client:
+            with self.assertRaises(KeyboardInterrupt):
+                reduce_all(client, stop)
+            early = times()
+            self.assertEqual(len(early), 9)
+            # As if the power had failed while the last line was written.
+            manifest = folder / "manifest.jsonl"
+            manifest.write_bytes(manifest.read_bytes()[:-20])
+            self.assertEqual(reduce_all(client), expected)
+            late = times()
+            self.assertEqual(sum(late[name] == early[name] for name in early), 8)
+            # All are there; then a log changes, and a factor file is damaged.
+            self.assertEqual(reduce_all(client), expected)
+            self.assertEqual(times(), late)
+            os.utime(recordings[3].log)
+            damaged = sorted(folder.glob("*.factor"))[5]
+            damaged.write_bytes(damaged.read_bytes()[:-1])
+            self.assertEqual(reduce_all(client), expected)
+            made_again = [name for name in late if times()[name] != late[name]]
+            self.assertEqual(len(made_again), 2)
+            # With another setting nothing is taken over.
+            reduce_all(client, window=.4)
+            self.assertFalse(set(times().values()) & set(late.values()))
+
+    @unittest.skipIf(distributed is None, "python3-distributed is not here")
+    def test_a_log_that_kills_is_refused_alone(self):
+        recordings = read_table(self.folder / "units.csv")
+        with unittest.mock.patch("armcal.fleet._in_tasks",
+                                 lambda todo, _: [todo[:12], todo[12:]]):
+            with cluster_of(2) as client:
+                client.register_worker_plugin(Deadly(recordings[5].log))
+                files, refused = reduce_logs(
+                    client, self.robot, recordings, str(self.folder / "lost"),
+                    **fleet_units.MODEL)
+        self.assertEqual(len(files), 23)
+        self.assertEqual(list(refused), [recordings[5].log])
+        self.assertIn("died", refused[recordings[5].log])
 
 
 if __name__ == "__main__":

@@ -5,12 +5,15 @@ them in the order of their logs' hashes: so is the result."""
 from __future__ import annotations
 
 import csv
+import itertools
 import os
 from dataclasses import dataclass
-from typing import Any, Callable, Dict, Iterable, List, Optional, Tuple
+from typing import (Any, Callable, Dict, Iterable, Iterator, List, Optional,
+                    Tuple)
 
 from armcal import _armcal
 from armcal.commands import RobotLike, merge, reduce
+from armcal.fleet_manifest import Manifest, digest, recipe
 from armcal.results import Merger
 
 #: Called with how many logs of how many are done.
@@ -42,6 +45,11 @@ def read_table(path: str) -> List[Recording]:
 
 #: path, source, text (of a robot in no file), base and tip.
 Place = Tuple[str, str, str, str, str]
+#: Name and bytes of a factor file; why there is none.
+Reduced = Tuple[str, bytes, str]
+#: Options of reduce that say how a log is read, which another factor does not.
+READING = ("torque_kind", "torque_constants", "torque_constants_stddev",
+           "gear_ratios", "topics", "crop")
 
 
 def _place_of(robot: _armcal.Robot) -> Place:
@@ -58,10 +66,16 @@ def _robot_of(place: Place) -> _armcal.Robot:
     return _armcal.Robot.from_text(text, format, name=name, base=base, tip=tip)
 
 
-def reduce_one(place: Place, recording: Recording, like: bytes,
-               options: Dict[str, Any]) -> Tuple[str, bytes, str]:
-    """On a worker: the name and the bytes of a factor file, or why there is
-    none. A log that is refused is so wherever it is tried."""
+def _text_of(place: Place) -> bytes:
+    path, _, text, _, _ = place
+    if not path:
+        return text.encode()
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def reduce_one(robot: _armcal.Robot, recording: Recording, like: bytes,
+               options: Dict[str, Any]) -> Reduced:
     import tempfile
     given = {**options, "unit": recording.unit or None,
              "date": recording.date or None}
@@ -73,66 +87,157 @@ def reduce_one(place: Place, recording: Recording, like: bytes,
                 given["like"] = os.path.join(folder, "like.factor")
                 with open(given["like"], "wb") as file:
                     file.write(like)
-            made = reduce(_robot_of(place), recording.log, **given)
+            made = reduce(robot, recording.log, **given)
     except ValueError as error:  # InputError, UsageError
         return "", b"", str(error)
     (name, content), = made.files.items()
     return name, content, ""
 
 
-def _write(folder: str, name: str, content: bytes) -> str:
-    path = os.path.join(folder, name)
-    with open(path + ".part", "wb") as file:
-        file.write(content)
-    os.replace(path + ".part", path)
-    return path
+def reduce_some(place: Place, recordings: List[Recording], like: bytes,
+                options: Dict[str, Any]) -> List[Reduced]:
+    """On a worker: each log's factor file, or why there is none. A log that is
+    refused is so wherever it is tried."""
+    robot = _robot_of(place)
+    return [reduce_one(robot, recording, like, options)
+            for recording in recordings]
+
+
+def _in_tasks(todo: List[Recording], workers: int) -> List[List[Recording]]:
+    """A scheduler spends some milliseconds on a task, a quarter of what a log
+    of a minute takes to reduce: a task has several logs, as many as leave each
+    worker 32 tasks, so that all end at nearly the same time."""
+    size = max(1, len(todo) // (32 * max(1, workers)))
+    return [todo[k:k + size] for k in range(0, len(todo), size)]
+
+
+def _results(client: Any, place: Place, todo: List[Recording], like: bytes,
+             options: Dict[str, Any]) -> Iterator[Tuple[Recording, Reduced]]:
+    """Of each log, as they come. A task is given up when the workers that had
+    it died again and again; its logs are then tried one by one, nothing else
+    being tried meanwhile, and which is still given up is refused: Dask blames
+    all tasks of a worker for its death. So that few are, a worker has two at a
+    time."""
+    from distributed import KilledWorker, as_completed
+
+    def submit(recordings: List[Recording]) -> Any:
+        return client.submit(reduce_some, place, recordings, like, options,
+                             retries=3, pure=False)
+
+    workers = len(client.scheduler_info()["workers"])
+    tasks = _in_tasks(todo, workers)
+    running = {submit(task): task for task in tasks[:2 * workers]}
+    waiting = iter(tasks[2 * workers:])
+    suspects: List[Recording] = []
+    done = as_completed(list(running))
+    for future in done:
+        for task in itertools.islice(waiting, 1):
+            running[submit(task)] = task
+            done.add(next(reversed(running)))
+        recordings = running.pop(future)
+        try:
+            yield from zip(recordings, future.result())
+        except KilledWorker:
+            suspects += recordings
+    for suspect in suspects:
+        try:
+            yield suspect, submit([suspect]).result()[0]
+        except KilledWorker:
+            yield suspect, ("", b"", f"{suspect.log}: each worker that tried "
+                                     "to reduce it died")
+
+
+class _Folder:
+    """Factor files as they come to a folder, and what is told of it."""
+
+    def __init__(self, path: str, place: Place, total: int, done: Done) -> None:
+        os.makedirs(path, exist_ok=True)
+        self.files: List[str] = []
+        self.refused: Dict[str, str] = {}
+        self._manifest = Manifest(path)
+        self._robot = (digest(_text_of(place)), place[3:])
+        self._total = total
+        self._done = done
+
+    def _recipe(self, recording: Recording, like: bytes,
+                options: Dict[str, Any]) -> str:
+        return recipe(_armcal.__version__, self._robot, recording.unit,
+                      recording.date, digest(like), options)
+
+    def take_over(self, recording: Recording, like: bytes,
+                  options: Dict[str, Any]) -> Optional[str]:
+        """The path of what an earlier run made of a log; None: nothing."""
+        path = self._manifest.find(recording.log,
+                                   self._recipe(recording, like, options))
+        if path:
+            self.files.append(path)
+            self._tell()
+        return path
+
+    def add(self, recording: Recording, reduced: Reduced, like: bytes,
+            options: Dict[str, Any]) -> None:
+        name, content, why = reduced
+        if why:
+            self.refused[recording.log] = why
+            self._manifest.refuse(recording.log, why)
+        else:
+            self.files.append(self._manifest.add(
+                recording.log, self._recipe(recording, like, options), name,
+                content))
+        self._tell()
+
+    def _tell(self) -> None:
+        if self._done is not None:
+            self._done(len(self.files) + len(self.refused), self._total)
+
+
+def _first_factor(client: Any, place: Place, todo: List[Recording],
+                  options: Dict[str, Any], folder: _Folder) -> bytes:
+    """Of the first log that is not refused, which says how the others are
+    reduced. These logs are taken from `todo`."""
+    while todo:
+        first = todo.pop(0)
+        path = folder.take_over(first, b"", options)
+        if path:
+            with open(path, "rb") as file:
+                return file.read()
+        reduced, = client.submit(reduce_some, place, [first], b"", options,
+                                 retries=3, pure=False).result()
+        folder.add(first, reduced, b"", options)
+        if reduced[1]:
+            return reduced[1]
+    return b""
 
 
 def reduce_logs(client: Any, robot: RobotLike, recordings: Iterable[Recording],
                 folder: str, *, like: Optional[str] = None, done: Done = None,
                 **options: Any) -> Tuple[List[str], Dict[str, str]]:
     """Reduces logs on the workers of a distributed.Client and writes the factor
-    files to `folder`, each as it comes. Workers need armcal and the paths.
+    files to `folder`, each as it comes. Workers need armcal and the paths. What
+    an earlier run made in this folder is taken over where log, robot and
+    settings are the same (fleet_manifest.py).
 
     like     a factor file that says how; None: the first log (by name) does,
              as `options` of reduce leave it open
     returns  the factor files, and {log: why it was refused}
     """
-    from distributed import as_completed
     arm = robot if isinstance(robot, _armcal.Robot) else _armcal.read_robot(
         robot)
     place = _place_of(arm)
     todo = sorted(recordings, key=lambda recording: recording.log)
-    os.makedirs(folder, exist_ok=True)
-    model = b""
-    reading = {name: value for name, value in options.items() if name in (
-        "torque_kind", "torque_constants", "torque_constants_stddev", "gear_ratios",
-        "topics", "crop")}
-    files: List[str] = []
-    refused: Dict[str, str] = {}
+    made = _Folder(folder, place, len(todo), done)
     if like is not None:
         with open(like, "rb") as file:
             model = file.read()
-    while not model and todo:
-        first = todo.pop(0)
-        name, model, why = client.submit(reduce_one, place, first, b"",
-                                         options, retries=3).result()
-        if why:
-            refused[first.log] = why
-        else:
-            files.append(_write(folder, name, model))
-    futures = {client.submit(reduce_one, place, recording, model, reading,
-                             retries=3): recording for recording in todo}
-    total = len(files) + len(refused) + len(todo)
-    for future in as_completed(list(futures)):
-        name, content, why = future.result()
-        if why:
-            refused[futures[future].log] = why
-        else:
-            files.append(_write(folder, name, content))
-        if done is not None:
-            done(len(files) + len(refused), total)
-    return sorted(files), refused
+    else:
+        model = _first_factor(client, place, todo, options, made)
+    reading = {name: value for name, value in options.items()
+               if name in READING}
+    todo = [recording for recording in todo
+            if not made.take_over(recording, model, reading)]
+    for recording, reduced in _results(client, place, todo, model, reading):
+        made.add(recording, reduced, model, reading)
+    return sorted(made.files), made.refused
 
 
 def calibrate_fleet(client: Any, robot: RobotLike,
