@@ -241,8 +241,8 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
-  } while (GiveUpWorst(result_.torque, result_.has_reference, findings));
-  LowerWhatDoesNotHelp(result_.torque, &findings->effects);
+  } while (GiveUpWorst(result_.torque, result_.has_reference, findings) ||
+           GiveUpWhatDoesNotHelp(result_.torque, findings));
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {

@@ -348,24 +348,34 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
 
 // An effect that removes nothing of the held-out gap, or makes it larger, is
 // not seen there: it may be what chance gave in the fitted data. Its
-// probability is at most indifference (Limits().untold), where a refit leaves
-// more than noise. The removed share is the whole fit's where the effect is
-// alone, and else its own gain.
-void LowerWhatDoesNotHelp(const GapFigures& torque,
-                          std::vector<FoundEffect>* effects) {
-  if (std::isnan(torque.removed_percent)) return;
+// probability is at most indifference (Limits().untold). The removed share is
+// the whole fit's where the effect is alone, and else its own gain. Friction of
+// another day stays: that there is some, many joints say together.
+bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings) {
+  if (std::isnan(torque.removed_percent)) return false;
+  std::vector<FoundEffect>& effects = findings->effects;
   const auto fitted =
-      std::count_if(effects->begin(), effects->end(),
+      std::count_if(effects.begin(), effects.end(),
                     [](const FoundEffect& f) { return !f.fitted.empty(); });
-  for (FoundEffect& found : *effects) {
-    if (found.fitted.empty()) continue;
-    const double removed =
-        fitted == 1 ? torque.removed_percent : found.removed_percent;
-    if (removed > 0) continue;
-    for (double* p : {&found.probability, &found.any_probability}) {
-      *p = std::min(*p, Limits().untold);
+  const auto removed = [&](const FoundEffect& found) {
+    return fitted == 1 ? torque.removed_percent : found.removed_percent;
+  };
+  auto worst = effects.end();
+  for (auto found = effects.begin(); found != effects.end(); ++found) {
+    if (found->fitted.empty() || found->of_another_day) continue;
+    if (removed(*found) > 0) continue;
+    if (worst == effects.end() || removed(*found) < removed(*worst)) {
+      worst = found;
     }
   }
+  if (worst == effects.end()) return false;
+  for (double* p : {&worst->probability, &worst->any_probability}) {
+    *p = std::min(*p, Limits().untold);
+  }
+  findings->without_name |= IsSeenAgain(*worst);
+  findings->unnamed.push_back(*worst);
+  effects.erase(worst);
+  return true;
 }
 
 }  // namespace armcal

@@ -62,9 +62,9 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);
 // What leaves no less of held-out data, where a refit leaves more than the
-// noise of them, is not seen there: it is at most as likely as not. (Where it
-// leaves the noise, they cannot tell.)
-void LowerWhatDoesNotHelp(const GapFigures& torque,
-                          std::vector<FoundEffect>* effects);
+// noise of them, is not seen there: it is at most as likely as not, and no
+// claim. (Where it leaves the noise, they cannot tell.) One at a time, the one
+// that helps least, as the others are judged without it. Whether there was one.
+bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings);
 
 }  // namespace armcal

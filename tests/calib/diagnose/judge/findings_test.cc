@@ -7,6 +7,8 @@
 namespace armcal::findings_test {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
 
 std::vector<std::string> Names(const std::vector<FoundEffect>& effects) {
   std::vector<std::string> names;
@@ -113,34 +115,58 @@ TEST(GiveUpWorst, TakesWithoutAReferenceWhatNothingSpeaksFor) {
   EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
 }
 
-// A name for what left-out data do not show is at most as likely as not.
-TEST(LowerWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
-  std::vector<FoundEffect> effects = {Found("spring", 1, 9),
-                                      Found("stribeck", 1, 8)};
-  for (FoundEffect& found : effects) found.probability = .9;
-  effects[0].fitted = {0};
-  effects[0].removed_percent = 60;
-  effects[1].fitted = {1};
-  effects[1].removed_percent = -3;
+// A name for what left-out data do not show is at most as likely as not, and
+// not told as one.
+TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
+                      Found("cable", 1, 7)};
+  const std::vector<double> removed = {60, -3, 0};
+  for (int k = 0; k < 3; ++k) {
+    FoundEffect& found = findings.effects[k];
+    found.probability = .9;
+    found.fitted = {k};
+    found.removed_percent = removed[k];
+  }
+  findings.effects[1].evidence.confirmation = {50, 40};  // chi^2 has seen it
   GapFigures torque;
   torque.removed_percent = NAN;  // a refit leaves the noise
-  LowerWhatDoesNotHelp(torque, &effects);
-  EXPECT_EQ(effects[1].probability, .9);
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
   torque.removed_percent = 57;
-  LowerWhatDoesNotHelp(torque, &effects);
-  EXPECT_EQ(effects[0].probability, .9);
-  EXPECT_EQ(effects[1].probability, .5);
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  ASSERT_THAT(findings.unnamed, SizeIs(1));
+  EXPECT_EQ(findings.unnamed[0].effect->name, "stribeck");
+  EXPECT_EQ(findings.unnamed[0].probability, .5);
+  EXPECT_TRUE(findings.without_name);
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
+  ASSERT_THAT(findings.effects, SizeIs(1));
+  EXPECT_EQ(findings.effects[0].probability, .9);
 }
 
-TEST(LowerWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
-  std::vector<FoundEffect> effects = {Found("link_inertia", 3, 40)};
-  effects[0].probability = .7;
-  effects[0].fitted = {0};
-  effects[0].removed_percent = 20;
+TEST(GiveUpWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
+  GapFindings findings;
+  findings.effects = {Found("link_inertia", 3, 40)};
+  findings.effects[0].probability = .7;
+  findings.effects[0].fitted = {0};
+  findings.effects[0].removed_percent = 20;
   GapFigures torque;
   torque.removed_percent = -17;
-  LowerWhatDoesNotHelp(torque, &effects);
-  EXPECT_EQ(effects[0].probability, .5);
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  EXPECT_THAT(findings.effects, IsEmpty());
+  EXPECT_EQ(findings.unnamed[0].probability, .5);
+  EXPECT_FALSE(findings.without_name);
+}
+
+// Joints say together that friction is another day's; each may say little.
+TEST(GiveUpWhatDoesNotHelp, NotFrictionOfAnotherDay) {
+  GapFindings findings;
+  findings.effects = {Found("coulomb_friction", 1, 9)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].of_another_day = true;
+  GapFigures torque;
+  torque.removed_percent = -1;
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
 }
 
 TEST(SortFindings, ByDeltaChi2) {
