@@ -22,6 +22,11 @@ def title(name):
     return name.replace("_", " ").capitalize()
 
 
+def percent(value):
+    """0.41 %, 53 %, 147 %."""
+    return f"{value:.2g} %" if value < 99.5 else f"{value:.0f} %"
+
+
 def in_modules():
     """Effects whose laws effects.py has, by its tables."""
     module = runpy.run_path(str(MODULES))
@@ -83,8 +88,8 @@ def recognised(name, figures_of):
         text += " Told instead, of the clear ones: " + ", ".join(told) + "."
     error = figures_of["size_error"]
     if error:
-        text += (f" Its size is off by {error[0]:.2g} % in the median "
-                 f"and by {error[1]:.2g} % at the 90th percentile "
+        text += (f" Its size is off by {percent(error[0])} in the median "
+                 f"and by {percent(error[1])} at the 90th percentile "
                  f"({error[2]} cases).")
     return text + source(name) + (" So few cases leave wide margins: see "
                    "[accuracy](../accuracy.md#diagnosis).")

@@ -27,7 +27,7 @@ LogArray ArrayOf(const std::string& name, const py::array& given) {
   array.rows = static_cast<long>(numbers.shape(0));
   array.columns = numbers.ndim() == 2 ? static_cast<long>(numbers.shape(1)) : 1;
   array.bytes.assign(reinterpret_cast<const char*>(numbers.data()),
-                     static_cast<size_t>(numbers.nbytes()));
+                     sizeof(double) * static_cast<size_t>(numbers.size()));
   return array;
 }
 
