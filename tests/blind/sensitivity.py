@@ -118,8 +118,13 @@ def page(thresholds, result):
         "probability (`calib/diagnose/judge/evidence.cc`), the ranges of "
         "[effects' parameters](effects/README.md), what a standstill is "
         "(`model/signals/standstill.h`), the constants of changes over many logs "
-        "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), and the sizes of "
-        "grids and caps on rounds. *Nothing that was noted*: it is not known any more on "
+        "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), the sizes of "
+        "grids and caps on rounds, and these, beside the code that they decide in: by how many "
+        "deviations friction has to be negative (`judge/dissipation.cc`), the chances of three "
+        "deviations (`data/days.h`, `judge/joint_agreement.cc`), friction from day to day "
+        "(`data/day_shares.h`), the factors of trust (`freedom.cc`), the prior of missing terms "
+        "(`select/missing_terms.cc`), how many rivals are compared (`select/rivals.cc`) and when "
+        "a sentence says that noise is loud (`sentence.cc`). *Nothing that was noted*: it is not known any more on "
         "what data that number was chosen.", "",
         *(["The last two figures are not measured yet.", ""] if not count else []),
         f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "
