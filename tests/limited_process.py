@@ -1,9 +1,17 @@
-"""A process under limits, and what it took."""
+"""Processes and what they took; one under limits."""
 
 import os
 import resource
 import subprocess
 import threading
+
+
+def wait_for(process):
+    """Waits for a subprocess.Popen, whose returncode is set; its CPU time in seconds and
+    the most memory that it had in bytes."""
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss << 10
 
 
 class LimitedProcess:
@@ -23,9 +31,7 @@ class LimitedProcess:
                 resource.prlimit(process.pid, kind, (most, most))
             timer = threading.Timer(hangs, process.kill)
             timer.start()
-            _, status, usage = os.wait4(process.pid, 0)
+            self.seconds, self.bytes = wait_for(process)
             timer.cancel()
-        process.returncode = self.code = os.waitstatus_to_exitcode(status)
+        self.code = process.returncode
         self.out, self.err = (s.read_text(errors="replace") for s in streams)
-        self.bytes = usage.ru_maxrss << 10
-        self.seconds = usage.ru_utime + usage.ru_stime

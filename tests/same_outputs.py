@@ -38,6 +38,7 @@ import subprocess
 import sys
 
 sys.dont_write_bytecode = True
+from limited_process import wait_for
 from same_outputs_commands import COMMANDS, INPUTS, PRELUDE, Command
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
@@ -121,9 +122,8 @@ class Side:
                 ["timeout", LONGEST_S, "bash", "-e", "-o", "pipefail", "-c",
                  PRELUDE + command.line], cwd=folder, env=environment,
                 stdin=subprocess.DEVNULL, stdout=out, stderr=err)
-            _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = code = os.waitstatus_to_exitcode(status)
-        return code, usage.ru_utime + usage.ru_stime
+            seconds, _ = wait_for(process)
+        return process.returncode, seconds
 
     def files(self, command: Command) -> dict[str, pathlib.Path]:
         """What a command printed and left, by names that both sides have."""

@@ -17,6 +17,9 @@ import sys
 import tempfile
 import xml.etree.ElementTree
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from limited_process import wait_for  # noqa: E402
+
 ROWS, HELD_OUT_ROWS = 100_000, 20_000
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -31,13 +34,12 @@ def run(command, folder, repetitions=1):
         path = pathlib.Path(folder) / "output"
         with open(path, "w", encoding="utf-8") as output:
             child = subprocess.Popen(command, stdout=output, env=environment)
-            _, status, usage = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
+            seconds, memory = wait_for(child)
         if child.returncode not in (0, 1):
             sys.exit(f"run.py: exit code {child.returncode}: "
                      f"{' '.join(map(str, command))}")
-        best = min(best, usage.ru_utime + usage.ru_stime)
-        peak = max(peak, usage.ru_maxrss / 1024)
+        best = min(best, seconds)
+        peak = max(peak, memory / 2**20)
     return path.read_text(encoding="utf-8"), best, peak
 
 

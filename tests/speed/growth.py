@@ -22,6 +22,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from limited_process import wait_for  # noqa: E402
+
 # What varies, its values, and joints and samples there. To add a curve: a line
 # here.
 CURVES = [
@@ -48,13 +51,12 @@ def measure(armcal, write, joints, samples):
                    f"--log={folder}/log.csv", f"--out={folder}/out", *FLAGS]
         for _ in range(REPETITIONS):
             child = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-            _, status, usage = os.wait4(child.pid, 0)
-            child.returncode = os.waitstatus_to_exitcode(status)
+            took, memory = wait_for(child)
             if child.returncode not in (0, 1):
                 sys.exit(f"growth.py: exit code {child.returncode}: "
                          f"{' '.join(command)}")
-            seconds = min(seconds, usage.ru_utime + usage.ru_stime)
-            peak = min(peak, usage.ru_maxrss / 1024)
+            seconds = min(seconds, took)
+            peak = min(peak, memory / 2**20)
     return {"seconds": seconds, "peak_mb": peak}
 
 
@@ -66,14 +68,13 @@ def measure_screen(benchmarks, effects):
             [benchmarks, "--benchmark_out=" + out, "--benchmark_min_time=1",
              f"--benchmark_filter=^DiagnosisScreenOf/effects:{effects}/"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        _, status, usage = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
+        _, memory = wait_for(child)
         if child.returncode != 0:
             sys.exit(f"growth.py: exit code {child.returncode}: {benchmarks}")
         with open(out, encoding="utf-8") as file:
             run = json.load(file)["benchmarks"][0]
     return {"x": run["candidates"], "effects": effects,
-            "seconds": run["per_sample"], "peak_mb": usage.ru_maxrss / 1024}
+            "seconds": run["per_sample"], "peak_mb": memory / 2**20}
 
 
 def curve_of(over, points):

@@ -18,6 +18,9 @@ import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from limited_process import wait_for  # noqa: E402
+
 
 def measure(armcal, write, joints, rows):
     with tempfile.TemporaryDirectory() as folder:
@@ -31,14 +34,13 @@ def measure(armcal, write, joints, rows):
         child = subprocess.Popen(
             [armcal, "calibrate", f"--robot={robot}", f"--log={log}",
              f"--out={folder}/out", "--quiet"])
-        _, status, usage = os.wait4(child.pid, 0)
-        child.returncode = os.waitstatus_to_exitcode(status)
+        _, memory = wait_for(child)
         seconds = time.monotonic() - begin
         writer.wait()
         if child.returncode not in (0, 1) or writer.returncode != 0:
             sys.exit(f"piped_logs.py: exit codes {child.returncode}, {writer.returncode}")
     return {"joints": joints, "rows": rows, "seconds": round(seconds, 1),
-            "gb": round(usage.ru_maxrss * 1024 / 1e9, 3)}
+            "gb": round(memory / 1e9, 3)}
 
 
 def main():
