@@ -12,6 +12,7 @@
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/freedom.h"
 #include "calib/diagnose/judge/claims.h"
+#include "calib/diagnose/judge/given_up.h"
 #include "calib/diagnose/judge/held_out.h"
 #include "calib/diagnose/select/fit.h"
 #include "calib/diagnose/select/reference.h"
@@ -243,6 +244,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
     }
   } while (GiveUpWorst(result_.torque, result_.has_reference, findings) ||
            GiveUpWhatDoesNotHelp(result_.torque, findings));
+  LowerWhatDoesNotHelp(result_.torque, &findings->effects);
   if (fit_->refined().effects.size() == fitted) return false;
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -11,7 +12,8 @@ namespace {
 
 // What probabilities of effects are worth in words.
 const char* Lacks(double least_probability) {
-  return IsConfident(least_probability) ? "lacks" : "probably lacks";
+  if (IsConfident(least_probability)) return "lacks";
+  return least_probability > Limits().likely ? "probably lacks" : "may lack";
 }
 
 // Effects in a sentence, and how certain the least certain is.

@@ -120,11 +120,11 @@ def page(thresholds, result):
         "(`model/signals/standstill.h`), the constants of changes over many logs "
         "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), the sizes of "
         "grids and caps on rounds, and these, beside the code that they decide in: by how many "
-        "deviations friction has to be negative (`judge/dissipation.cc`), the chances of three "
-        "deviations (`data/days.h`, `judge/joint_agreement.cc`), friction from day to day "
-        "(`data/day_shares.h`), the factors of trust (`freedom.cc`), the prior of missing terms "
-        "(`select/missing_terms.cc`), how many rivals are compared (`select/rivals.cc`) and when "
-        "a sentence says that noise is loud (`sentence.cc`). *Nothing that was noted*: it is not known any more on "
+        "deviations friction has to be negative (`calib/diagnose/judge/dissipation.cc`), the chances of three "
+        "deviations (`calib/diagnose/data/days.h`, `calib/diagnose/judge/joint_agreement.cc`), friction from day to day "
+        "(`calib/diagnose/data/day_shares.h`), the factors of trust (`calib/diagnose/freedom.cc`), the prior of missing terms "
+        "(`calib/diagnose/select/missing_terms.cc`), how many rivals are compared (`calib/diagnose/select/rivals.cc`) and when "
+        "a sentence says that noise is loud (`calib/diagnose/sentence.cc`). *Nothing that was noted*: it is not known any more on "
         "what data that number was chosen.", "",
         *(["The last two figures are not measured yet.", ""] if not count else []),
         f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "

@@ -309,33 +309,6 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
   }
 }
 
-bool GiveUpWorst(const GapFigures& torque, bool since_reference,
-                 GapFindings* findings) {
-  const double most = since_reference ? 100 * Limits().explains : 0;
-  if (!(torque.ci95[1] < most)) return false;
-  const bool nothing = torque.ci95[0] <= 0;
-  std::vector<FoundEffect>& effects = findings->effects;
-  for (const bool seen : {false, true}) {
-    if (seen && !since_reference) continue;
-    auto worst = effects.end();
-    for (auto found = effects.begin(); found != effects.end(); ++found) {
-      if (found->fitted.empty() || IsSeenAgain(*found) != seen) continue;
-      if (!nothing && found->probability >= Limits().likely_unseen) continue;
-      if (worst == effects.end() ||
-          found->removed_percent < worst->removed_percent) {
-        worst = found;
-      }
-    }
-    if (worst == effects.end()) continue;
-    // Something is there, which has another name.
-    findings->without_name |= seen;
-    findings->unnamed.push_back(*worst);
-    effects.erase(worst);
-    return true;
-  }
-  return false;
-}
-
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects) {
@@ -344,38 +317,6 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
     SetShare(fit, torque, held_out.GainOf(found.fitted[0], torque.after),
              &found);
   }
-}
-
-// An effect that removes nothing of the held-out gap, or makes it larger, is
-// not seen there: it may be what chance gave in the fitted data. Its
-// probability is at most indifference (Limits().untold). The removed share is
-// the whole fit's where the effect is alone, and else its own gain. Friction of
-// another day stays: that there is some, many joints say together.
-bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings) {
-  if (std::isnan(torque.removed_percent)) return false;
-  std::vector<FoundEffect>& effects = findings->effects;
-  const auto fitted =
-      std::count_if(effects.begin(), effects.end(),
-                    [](const FoundEffect& f) { return !f.fitted.empty(); });
-  const auto removed = [&](const FoundEffect& found) {
-    return fitted == 1 ? torque.removed_percent : found.removed_percent;
-  };
-  auto worst = effects.end();
-  for (auto found = effects.begin(); found != effects.end(); ++found) {
-    if (found->fitted.empty() || found->of_another_day) continue;
-    if (removed(*found) > 0) continue;
-    if (worst == effects.end() || removed(*found) < removed(*worst)) {
-      worst = found;
-    }
-  }
-  if (worst == effects.end()) return false;
-  for (double* p : {&worst->probability, &worst->any_probability}) {
-    *p = std::min(*p, Limits().untold);
-  }
-  findings->without_name |= IsSeenAgain(*worst);
-  findings->unnamed.push_back(*worst);
-  effects.erase(worst);
-  return true;
 }
 
 }  // namespace armcal

@@ -46,25 +46,8 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
 void FitClaimed(GapFindings* findings, GapFit* fit);
-// Where held-out data show that the effects remove less than half of the gap
-// (short logs do not: their intervals are wide), most of it has another cause,
-// which they may be confused with. Where they perhaps remove nothing, none is
-// claimed, else none that is not as likely as what held-out data do not show
-// has to be. Gives up the one that removes least, of those first that chi^2
-// does not see in held-out data: it sees, of the law of another cause, what is
-// alike in both; the mean square sees the rest. Without a reference the gap is
-// of what a refit leaves, which may have taken up what is the effects': then
-// only what chi^2 does not see, and the mean square sees against, is given up.
-// Whether there was one.
-bool GiveUpWorst(const GapFigures& torque, bool since_reference,
-                 GapFindings* findings);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);
-// What leaves no less of held-out data, where a refit leaves more than the
-// noise of them, is not seen there: it is at most as likely as not, and no
-// claim. (Where it leaves the noise, they cannot tell.) One at a time, the one
-// that helps least, as the others are judged without it. Whether there was one.
-bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings);
 
 }  // namespace armcal

@@ -35,6 +35,8 @@ TEST(BriefReport, SaysHowSureItIs) {
   EXPECT_EQ(BriefReport(diagnosis),
             "The model probably lacks stribeck on elbow, which does not shrink "
             "the gap on held-out data.");
+  diagnosis.effects[0].probability = .5;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("may lack stribeck"));
 }
 
 // What the file gives no joint is in the refit, too: the file's gap is what it

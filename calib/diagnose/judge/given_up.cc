@@ -1,0 +1,93 @@
+#include "calib/diagnose/judge/given_up.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/judge/claims.h"
+
+namespace armcal {
+namespace {
+
+// Whether held-out data have no less of a gap with it. The removed share is the
+// whole fit's where the effect is alone, and else its own gain.
+bool LeavesNoLess(const FoundEffect& found, const GapFigures& torque,
+                  const std::vector<FoundEffect>& effects) {
+  if (std::isnan(torque.removed_percent) || found.fitted.empty()) return false;
+  const auto fitted =
+      std::count_if(effects.begin(), effects.end(),
+                    [](const FoundEffect& f) { return !f.fitted.empty(); });
+  return (fitted == 1 ? torque.removed_percent : found.removed_percent) <= 0;
+}
+
+// At most as likely as not.
+void Lower(FoundEffect* found) {
+  for (double* p : {&found->probability, &found->any_probability}) {
+    *p = std::min(*p, Limits().untold);
+  }
+}
+
+}  // namespace
+
+bool GiveUpWorst(const GapFigures& torque, bool since_reference,
+                 GapFindings* findings) {
+  const double most = since_reference ? 100 * Limits().explains : 0;
+  if (!(torque.ci95[1] < most)) return false;
+  const bool nothing = torque.ci95[0] <= 0;
+  std::vector<FoundEffect>& effects = findings->effects;
+  for (const bool seen : {false, true}) {
+    if (seen && !since_reference) continue;
+    auto worst = effects.end();
+    for (auto found = effects.begin(); found != effects.end(); ++found) {
+      if (found->fitted.empty() || IsSeenAgain(*found) != seen) continue;
+      if (!nothing && found->probability >= Limits().likely_unseen) continue;
+      if (worst == effects.end() ||
+          found->removed_percent < worst->removed_percent) {
+        worst = found;
+      }
+    }
+    if (worst == effects.end()) continue;
+    // Something is there, which has another name.
+    findings->without_name |= seen;
+    findings->unnamed.insert(findings->unnamed.begin(), *worst);
+    effects.erase(worst);
+    return true;
+  }
+  return false;
+}
+
+// An effect that removes nothing of the held-out gap, or makes it larger, is
+// not seen there: it may be what chance gave in the fitted data. Its
+// probability is at most indifference (Limits().untold).
+void LowerWhatDoesNotHelp(const GapFigures& torque,
+                          std::vector<FoundEffect>* effects) {
+  for (FoundEffect& found : *effects) {
+    if (LeavesNoLess(found, torque, *effects)) Lower(&found);
+  }
+}
+
+// Where the interval ends below one half, most of the gap has another cause for
+// certain. Friction of another day stays: that there is some, many joints say
+// together.
+bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings) {
+  if (!(torque.ci95[1] < 100 * Limits().explains)) return false;
+  std::vector<FoundEffect>& effects = findings->effects;
+  auto worst = effects.end();
+  for (auto found = effects.begin(); found != effects.end(); ++found) {
+    if (found->of_another_day || !LeavesNoLess(*found, torque, effects)) {
+      continue;
+    }
+    if (worst == effects.end() ||
+        found->removed_percent < worst->removed_percent) {
+      worst = found;
+    }
+  }
+  if (worst == effects.end()) return false;
+  Lower(&*worst);
+  findings->without_name |= IsSeenAgain(*worst);
+  findings->unnamed.insert(findings->unnamed.begin(), *worst);
+  effects.erase(worst);
+  return true;
+}
+
+}  // namespace armcal

@@ -1,0 +1,149 @@
+#include "calib/diagnose/judge/given_up.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/fixtures/found_effect.h"
+
+namespace armcal::given_up_test {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+GapFigures Shrinking(double low, double high) {
+  GapFigures torque;
+  torque.ci95[0] = low;
+  torque.ci95[1] = high;
+  return torque;
+}
+
+TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
+                      Found("viscous_friction", -1, 7)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].removed_percent = 5;
+  findings.effects[1].fitted = {1};
+  findings.effects[1].removed_percent = -70;
+  findings.effects[2].removed_percent = -90;  // a change since the reference
+  findings.effects.push_back(Found("armature", 0, 6));
+  findings.effects[3].fitted = {2};
+  findings.effects[3].removed_percent = -80;
+  findings.effects[3].evidence.confirmation = {50, 40};  // seen all the same
+  const GapFigures little = Shrinking(-20, 30);
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
+  EXPECT_THAT(Names(findings.unnamed), ElementsAre("stribeck@2"));
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
+  EXPECT_FALSE(findings.without_name);
+  EXPECT_TRUE(GiveUpWorst(little, true, &findings));
+  EXPECT_TRUE(findings.without_name);
+  EXPECT_FALSE(GiveUpWorst(little, true, &findings));
+  EXPECT_THAT(Names(findings.effects), ElementsAre("viscous_friction@0"));
+}
+
+// Half of the gap, or nothing, is what short logs tell. What removes some of it
+// for certain, and no more than half, has to be more certain itself.
+TEST(GiveUpWorst, TakesNothingThatMayExplain) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].probability = .71;
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 30), true, &findings));
+  findings.effects[0].probability = .69;
+  EXPECT_FALSE(GiveUpWorst(Shrinking(1, 60), true, &findings));
+  GapFindings unlikely = findings;
+  EXPECT_TRUE(GiveUpWorst(Shrinking(1, 30), true, &unlikely));
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-20, 60), true, &findings));
+  EXPECT_FALSE(GiveUpWorst(GapFigures(), true, &findings));
+  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), true, &findings));
+}
+
+// Without a reference a refit may have removed what the effect would have.
+TEST(GiveUpWorst, TakesWithoutAReferenceWhatNothingSpeaksFor) {
+  GapFindings findings;
+  findings.effects = {Found("coulomb_friction", 1, 9)};
+  findings.effects[0].fitted = {0};
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-2, 1), false, &findings));
+  findings.effects[0].evidence.confirmation = {50, 40};
+  EXPECT_FALSE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
+  findings.effects[0].evidence.confirmation = {50, 4};
+  EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
+}
+
+// A name for what left-out data do not show is at most as likely as not, and
+// not told as one.
+TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
+                      Found("cable", 1, 7)};
+  const std::vector<double> removed = {60, -3, 0};
+  for (int k = 0; k < 3; ++k) {
+    FoundEffect& found = findings.effects[k];
+    found.probability = .9;
+    found.fitted = {k};
+    found.removed_percent = removed[k];
+  }
+  findings.effects[1].evidence.confirmation = {50, 40};  // chi^2 has seen it
+  GapFigures torque = Shrinking(-5, 40);
+  torque.removed_percent = NAN;  // a refit leaves the noise
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(Shrinking(-90, 80), &findings));
+  torque.removed_percent = 20;
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  ASSERT_THAT(findings.unnamed, SizeIs(1));
+  EXPECT_EQ(findings.unnamed[0].effect->name, "stribeck");
+  EXPECT_EQ(findings.unnamed[0].probability, .5);
+  EXPECT_TRUE(findings.without_name);
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
+  ASSERT_THAT(findings.effects, SizeIs(1));
+  EXPECT_EQ(findings.effects[0].probability, .9);
+}
+
+TEST(GiveUpWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
+  GapFindings findings;
+  findings.effects = {Found("link_inertia", 3, 40)};
+  findings.effects[0].probability = .7;
+  findings.effects[0].fitted = {0};
+  findings.effects[0].removed_percent = 20;
+  GapFigures torque = Shrinking(-40, 6);
+  torque.removed_percent = -17;
+  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
+  EXPECT_THAT(findings.effects, IsEmpty());
+  EXPECT_EQ(findings.unnamed[0].probability, .5);
+  EXPECT_FALSE(findings.without_name);
+}
+
+// Joints say together that friction is another day's; each may say little.
+TEST(GiveUpWhatDoesNotHelp, NotFrictionOfAnotherDay) {
+  GapFindings findings;
+  findings.effects = {Found("coulomb_friction", 1, 9)};
+  findings.effects[0].fitted = {0};
+  findings.effects[0].of_another_day = true;
+  GapFigures torque = Shrinking(-3, 1);
+  torque.removed_percent = -1;
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
+}
+
+// Which data that tell little cannot lead to: then it stays, as likely as not.
+TEST(LowerWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
+  std::vector<FoundEffect> effects = {Found("spring", 1, 9),
+                                      Found("stribeck", 1, 8)};
+  for (FoundEffect& found : effects) found.probability = .9;
+  effects[0].fitted = {0};
+  effects[0].removed_percent = 60;
+  effects[1].fitted = {1};
+  effects[1].removed_percent = -3;
+  GapFigures torque;
+  torque.removed_percent = NAN;
+  LowerWhatDoesNotHelp(torque, &effects);
+  EXPECT_EQ(effects[1].probability, .9);
+  torque.removed_percent = 57;
+  LowerWhatDoesNotHelp(torque, &effects);
+  EXPECT_EQ(effects[0].probability, .9);
+  EXPECT_EQ(effects[1].probability, .5);
+}
+
+}  // namespace armcal::given_up_test
