@@ -100,8 +100,8 @@ def show_units(fleet, truth):
 
 
 def show_times(folder, rounds):
-    """Logs of two minutes, beside which starting and merging are little."""
-    fleet_units.write_units(folder, 100, long_s=120, short_s=120)
+    """A thousand logs of a minute."""
+    fleet_units.write_units(folder, 1000, long_s=60, short_s=60)
     robot = armcal.read_robot(folder / "arm.yaml")
     recordings = read_table(str(folder / "units.csv"))
     taken = {1: [], 2: []}

@@ -117,24 +117,31 @@ def _results(client: Any, place: Place, todo: List[Recording], like: bytes,
     it died again and again; its logs are then tried one by one, nothing else
     being tried meanwhile, and which is still given up is refused: Dask blames
     all tasks of a worker for its death. So that few are, a worker has two at a
-    time."""
+    time; workers may come and go."""
     from distributed import KilledWorker, as_completed
+
+    def workers() -> int:
+        return max(1, len(client.scheduler_info()["workers"]))
 
     def submit(recordings: List[Recording]) -> Any:
         return client.submit(reduce_some, place, recordings, like, options,
                              retries=3, pure=False)
 
-    workers = len(client.scheduler_info()["workers"])
-    tasks = _in_tasks(todo, workers)
-    running = {submit(task): task for task in tasks[:2 * workers]}
-    waiting = iter(tasks[2 * workers:])
+    def fill() -> None:
+        for task in itertools.islice(waiting,
+                                     max(0, 2 * workers() - len(running))):
+            future = submit(task)
+            running[future] = task
+            done.add(future)
+
+    waiting = iter(_in_tasks(todo, workers()))
+    running: Dict[Any, List[Recording]] = {}
     suspects: List[Recording] = []
-    done = as_completed(list(running))
+    done = as_completed()
+    fill()
     for future in done:
-        for task in itertools.islice(waiting, 1):
-            running[submit(task)] = task
-            done.add(next(reversed(running)))
         recordings = running.pop(future)
+        fill()
         try:
             yield from zip(recordings, future.result())
         except KilledWorker:
