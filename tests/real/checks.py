@@ -1,13 +1,15 @@
 """Checks that several sets of the scoreboard share: functions of the runs, whose
 docstring is what a right answer says."""
 
-from reading import claim, claims, friction_of, told
+from reading import alike, claim, claims, friction_of, told
 
 
 def names_only(run, allowed=(), says="nothing is named"):
-    """Of a diagnosis: no effect but these has more than 50 %."""
+    """Of a diagnosis: no effect but these has more than 50 %, nor is one of several named
+    together none of which is among these."""
     def check(runs):
         other = [e for e in claims(runs[run]) if e["effect"] not in allowed]
+        other += [names for names, _ in alike(runs[run]) if not set(names) & set(allowed)]
         return not other, told(runs[run])
     check.__doc__ = f"{run}: {says}"
     return check

@@ -7,10 +7,20 @@ def claims(diagnosis, above=.5):
     return sorted(named, key=lambda e: -e["probability"])
 
 
+def alike(diagnosis):
+    """Of what is named as one of a few effects that the data cannot tell apart: each one's
+    names, and how probable it is that it is one of them."""
+    return [([e["effect"], *(other["effect"] for other in e["equivalent"])],
+             e["any_probability"])
+            for e in diagnosis["fitted_not_named"] if e["one_of_few"]]
+
+
 def told(diagnosis):
     """The claims in a few words."""
     words = [f"{e['effect']} {e['joint']} {e['probability']:.2f}".replace("  ", " ")
              for e in claims(diagnosis)]
+    words += [f"one of {', '.join(names)} {probability:.2f}"
+              for names, probability in alike(diagnosis)]
     return ", ".join(words) or f"nothing ({diagnosis['verdict']})"
 
 
