@@ -8,8 +8,9 @@
 namespace armcal {
 
 // What was claimed by what the fit and its rivals say, and helps too little on
-// held-out data. Each of these gives up one effect at most, as what remains is
-// to be fitted and judged without it; it is the first of what is not named.
+// held-out data. To give up is to take one effect at most from the claims, as
+// the others are to be fitted and judged without it, and to put it first among
+// what is not named.
 
 // Where held-out data show that the effects remove less than half of the gap
 // (short logs do not: their intervals are wide), most of it has another cause,
