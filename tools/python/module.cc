@@ -9,6 +9,7 @@
 #include "tools/python/command_binding.h"
 #include "tools/python/option_binding.h"
 #include "tools/python/robot_binding.h"
+#include "tools/source_hash.h"
 #include "tools/version.h"
 
 PYBIND11_MODULE(_armcal, module) {
@@ -17,6 +18,7 @@ PYBIND11_MODULE(_armcal, module) {
   armcal::SetOptionPrefix("--");  // the texts of commands are theirs
   FLAGS_logtostderr = true;       // else glog writes to files in /tmp
   module.attr("__version__") = ARMCAL_VERSION;
+  module.attr("__sources__") = armcal::SourceHash();
   py::register_exception<armcal::InputError>(module, "InputError",
                                              PyExc_ValueError)
       .attr("__doc__") =

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 Array = NDArray[np.float64]
 
 __version__: str
+__sources__: str  # hash of what it was compiled from
 INERTIAL_NAMES: Tuple[str, ...]
 INERTIAL_UNITS: Tuple[str, ...]
 

@@ -168,7 +168,7 @@ class _Folder:
 
     def _recipe(self, recording: Recording, like: bytes,
                 options: Dict[str, Any]) -> str:
-        return recipe(_armcal.__version__, self._robot, recording.unit,
+        return recipe(_armcal.__sources__, self._robot, recording.unit,
                       recording.date, digest(like), options)
 
     def take_over(self, recording: Recording, like: bytes,
