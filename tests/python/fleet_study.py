@@ -10,7 +10,6 @@ and what units with short logs gain.
 """
 
 import hashlib
-import logging
 import os
 import pathlib
 import shutil
@@ -19,7 +18,6 @@ import sys
 import time
 
 import armcal
-import distributed
 import numpy as np
 from armcal.fleet import calibrate_fleet, read_table
 
@@ -35,10 +33,7 @@ def run(folder, robot, recordings, workers, kill_at=None):
     of their own would be that time."""
     out = folder / "out"
     shutil.rmtree(out, ignore_errors=True)
-    with distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0",
-            silence_logs=logging.CRITICAL) as cluster, distributed.Client(
-                cluster) as client:
+    with fleet_units.cluster_of(workers) as client:
         pids = list(client.run(os.getpid).values())
         client.run(__import__, "armcal.fleet")
 

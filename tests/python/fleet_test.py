@@ -1,8 +1,6 @@
 """Fleets: what is planted is found, whoever reduces the logs."""
 
-import contextlib
 import hashlib
-import logging
 import os
 import pathlib
 import subprocess
@@ -23,15 +21,6 @@ except ImportError:
 ARMCAL = os.environ["ARMCAL"]
 TOOL = pathlib.Path(__file__).parents[2] / "tools" / "fleet.py"
 SETTINGS = [f"{name}={value}" for name, value in fleet_units.MODEL.items()]
-
-
-@contextlib.contextmanager
-def cluster_of(workers, **options):
-    with distributed.LocalCluster(
-            n_workers=workers, threads_per_worker=1,
-            dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL,
-            **options) as cluster, distributed.Client(cluster) as client:
-        yield client
 
 
 def digest(path):
@@ -137,7 +126,7 @@ class Fleet(unittest.TestCase):
                 killed.append(pid)
                 os.kill(pid, 9)
 
-        with cluster_of(2) as client:
+        with fleet_units.cluster_of(2) as client:
             files, refused = reduce_logs(
                 client, self.robot, recordings, str(self.folder / "killed"),
                 like=sorted(map(str, self.folder.glob("factors/*")))[0],
@@ -175,7 +164,7 @@ class Fleet(unittest.TestCase):
 
         expected = {path.name: digest(path)
                     for path in self.folder.glob("factors/*")}
-        with cluster_of(2) as client:
+        with fleet_units.cluster_of(2) as client:
             with self.assertRaises(KeyboardInterrupt):
                 reduce_all(client, stop)
             early = times()
@@ -204,7 +193,7 @@ class Fleet(unittest.TestCase):
         recordings = read_table(self.folder / "units.csv")
         with unittest.mock.patch("armcal.fleet._in_tasks",
                                  lambda todo, _: [todo[:12], todo[12:]]):
-            with cluster_of(2) as client:
+            with fleet_units.cluster_of(2) as client:
                 client.register_worker_plugin(Deadly(recordings[5].log))
                 files, refused = reduce_logs(
                     client, self.robot, recordings, str(self.folder / "lost"),

@@ -1,8 +1,10 @@
 """Logs of many units of one arm whose differences are known: torques of the
 arm's equations with each unit's own parameters, and white noise."""
 
+import contextlib
 import csv
 import datetime
+import logging
 import pathlib
 
 import armcal
@@ -75,3 +77,15 @@ def write_units(folder, count, seed=1, long_s=12, short_s=4, noise=(.5, .25)):
         writer.writeheader()
         writer.writerows(rows)
     return truth
+
+
+@contextlib.contextmanager
+def cluster_of(workers):
+    """A client of so many processes on this machine, each with one thread."""
+    import distributed  # not everywhere, and what is above needs none
+    with distributed.LocalCluster(
+            n_workers=workers, threads_per_worker=1,
+            dashboard_address="127.0.0.1:0",
+            silence_logs=logging.CRITICAL) as cluster, distributed.Client(
+                cluster) as client:
+        yield client

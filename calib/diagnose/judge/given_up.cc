@@ -27,6 +27,27 @@ void Lower(FoundEffect* found) {
   }
 }
 
+// Gives up the one that removes least of the fitted effects that `may_go`.
+// Whether there was one. What held-out data show as well is something, which
+// has another name.
+template <typename MayGo>
+bool GiveUpLeast(const MayGo& may_go, GapFindings* findings) {
+  std::vector<FoundEffect>& effects = findings->effects;
+  auto worst = effects.end();
+  for (auto found = effects.begin(); found != effects.end(); ++found) {
+    if (found->fitted.empty() || !may_go(*found)) continue;
+    if (worst == effects.end() ||
+        found->removed_percent < worst->removed_percent) {
+      worst = found;
+    }
+  }
+  if (worst == effects.end()) return false;
+  findings->without_name |= IsSeenAgain(*worst);
+  findings->unnamed.insert(findings->unnamed.begin(), *worst);
+  effects.erase(worst);
+  return true;
+}
+
 }  // namespace
 
 bool GiveUpWorst(const GapFigures& torque, bool since_reference,
@@ -34,26 +55,14 @@ bool GiveUpWorst(const GapFigures& torque, bool since_reference,
   const double most = since_reference ? 100 * Limits().explains : 0;
   if (!(torque.ci95[1] < most)) return false;
   const bool nothing = torque.ci95[0] <= 0;
-  std::vector<FoundEffect>& effects = findings->effects;
-  for (const bool seen : {false, true}) {
-    if (seen && !since_reference) continue;
-    auto worst = effects.end();
-    for (auto found = effects.begin(); found != effects.end(); ++found) {
-      if (found->fitted.empty() || IsSeenAgain(*found) != seen) continue;
-      if (!nothing && found->probability >= Limits().likely_unseen) continue;
-      if (worst == effects.end() ||
-          found->removed_percent < worst->removed_percent) {
-        worst = found;
-      }
-    }
-    if (worst == effects.end()) continue;
-    // Something is there, which has another name.
-    findings->without_name |= seen;
-    findings->unnamed.insert(findings->unnamed.begin(), *worst);
-    effects.erase(worst);
-    return true;
-  }
-  return false;
+  const auto of = [&](bool seen) {
+    return [nothing, seen](const FoundEffect& found) {
+      return IsSeenAgain(found) == seen &&
+             (nothing || found.probability < Limits().likely_unseen);
+    };
+  };
+  return GiveUpLeast(of(false), findings) ||
+         (since_reference && GiveUpLeast(of(true), findings));
 }
 
 // An effect that removes nothing of the held-out gap, or makes it larger, is
@@ -71,22 +80,12 @@ void LowerWhatDoesNotHelp(const GapFigures& torque,
 // together.
 bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings) {
   if (!(torque.ci95[1] < 100 * Limits().explains)) return false;
-  std::vector<FoundEffect>& effects = findings->effects;
-  auto worst = effects.end();
-  for (auto found = effects.begin(); found != effects.end(); ++found) {
-    if (found->of_another_day || !LeavesNoLess(*found, torque, effects)) {
-      continue;
-    }
-    if (worst == effects.end() ||
-        found->removed_percent < worst->removed_percent) {
-      worst = found;
-    }
-  }
-  if (worst == effects.end()) return false;
-  Lower(&*worst);
-  findings->without_name |= IsSeenAgain(*worst);
-  findings->unnamed.insert(findings->unnamed.begin(), *worst);
-  effects.erase(worst);
+  const auto does_not_help = [&](const FoundEffect& found) {
+    return !found.of_another_day &&
+           LeavesNoLess(found, torque, findings->effects);
+  };
+  if (!GiveUpLeast(does_not_help, findings)) return false;
+  Lower(&findings->unnamed.front());
   return true;
 }
 

@@ -107,7 +107,7 @@ def _in_tasks(todo: List[Recording], workers: int) -> List[List[Recording]]:
     """A scheduler spends some milliseconds on a task, a quarter of what a log
     of a minute takes to reduce: a task has several logs, as many as leave each
     worker 32 tasks, so that all end at nearly the same time."""
-    size = max(1, len(todo) // (32 * max(1, workers)))
+    size = max(1, len(todo) // (32 * workers))
     return [todo[k:k + size] for k in range(0, len(todo), size)]
 
 
