@@ -177,6 +177,25 @@ def write_ros2_control(log, path):
             (stamp + LATENCY, cdr(dynamic_state(stamp, q, tau))) for stamp, q, tau in samples])})
 
 
+def write_wrench(log, path):
+    """Joint states beside a sensor that measures between them and is received later: its axis c
+    says 10 c + k where the message k + 1 of the joints has its stamp, by way of a straight line."""
+    wrench, vector = (ROS.types[f'geometry_msgs/msg/{name}'] for name in ('WrenchStamped', 'Vector3'))
+    step = log.stamps[1] - log.stamps[0]
+
+    def sensor(k):
+        stamp = log.stamps[0] + k * step - step // 4
+        six = [10. * c + k - .25 for c in range(6)]
+        message = wrench(header=state(stamp, []).header, wrench=ROS.types['geometry_msgs/msg/Wrench'](
+            force=vector(*six[:3]), torque=vector(*six[3:])))
+        return stamp + 10 * LATENCY, cdr(message)
+
+    kind = 'geometry_msgs/msg/WrenchStamped'
+    messages = [sensor(k) for k in range(FEW + 1)]
+    mcap(path, {'/joint_states': packed(few(log.states())), '/ft': (kind, messages),
+                '/external': (kind, messages)})
+
+
 def write_lz4(log, path):
     """By mcap-ros2-support, which has a CDR of its own."""
     with open(path, 'wb') as file:
@@ -272,6 +291,7 @@ def main():
     write_beginnings(log, folder)
     write_refused(log, folder)
     write_ros2_control(log, folder / 'ros2_control.mcap')
+    write_wrench(log, folder / 'wrench.mcap')
     write_mat(log, folder)
 
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <system_error>
 
+#include "model/log_files/columns/wrench_columns.h"
 #include "model/robot_files/robot_reader.h"
 #include "model/text/input_text.h"
 #include "tools/command.h"
@@ -43,7 +44,7 @@ DEFINE_string(torque_kind, "auto",
               "gear ratio), current, command, voltage");
 DEFINE_string(topics, "",
               "`A,SIGNAL:B..` topics of ROS 2 bags, as in "
-              "/joint_states,effort:/torques");
+              "/joint_states,effort:/torques,wrench:/ft");
 DEFINE_string(bandwidth, "",
               "`HZ` cutoff of the low pass; 0: data as they are; default: 10 "
               "times the motion's frequency, 8 to 20 Hz (watch: 20)");
@@ -89,16 +90,21 @@ FlagWords EffectWords() { return {EffectNames(), true}; }
 const FlagWordsAdded kSeparated("separate", &EffectWords);
 const FlagWordsAdded kLeftOut("without", &EffectWords);
 
-// "/joint_states" or "effort:/torques".
+// "/joint_states", "effort:/torques" or "wrench:/ft".
 LogTopic ParseTopic(const std::string& text) {
   const size_t colon = text.find(':');
   if (colon == std::string::npos && !text.empty()) return {text, std::nullopt};
+  const bool named = colon + 1 < text.size();
+  const std::string what = text.substr(0, colon);
   std::vector<std::string> signals;
   for (const Signal signal : kSignals) {
     signals.emplace_back(NamesOf(signal).path_part);
-    if (colon + 1 < text.size() && text.substr(0, colon) == signals.back()) {
+    if (named && what == signals.back())
       return {text.substr(colon + 1), signal};
-    }
+  }
+  signals.emplace_back(kWrenchArray);
+  if (named && what == kWrenchArray) {
+    return {text.substr(colon + 1), std::nullopt, true};
   }
   throw UsageError("--topics: found '" + text +
                    "', expected a topic's name, or one of " +
@@ -254,8 +260,12 @@ LogReaderOptions LogOptionsFromFlags(const FlagValues& flags,
   options.torque_constants_stddev = ShareOrNothing(
       "torque_constants_stddev", flags.Text("torque_constants_stddev"));
   options.gear_ratios = ParseNumbers("gear_ratios", flags.Text("gear_ratios"));
-  for (const std::string& topic : SplitAtCommas(flags.Text("topics"))) {
-    options.topics.push_back(ParseTopic(topic));
+  const std::vector<std::string> topics = SplitAtCommas(flags.Text("topics"));
+  for (size_t k = 0; k < topics.size(); ++k) {
+    if (std::count(topics.begin(), topics.begin() + k, topics[k]) > 0) {
+      throw UsageError("--topics: names '" + topics[k] + "' twice");
+    }
+    options.topics.push_back(ParseTopic(topics[k]));
   }
   return options;
 }

@@ -165,9 +165,9 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   Fit(segments, before);
   if (before.empty()) FreeWhatIsContradicted(missing, &segments);
   if (split) {
-    held_out_.emplace(*fit_);
+    held_out_.emplace(*fit_, options_.seed);
   } else {
-    held_out_.emplace(*fit_, Read(*validation));
+    held_out_.emplace(*fit_, Read(*validation), options_.seed);
   }
   Tell("checking what was held out");
   result_.bandwidth_hz = bandwidth_hz_;

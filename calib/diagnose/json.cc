@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "calib/diagnose/next_steps.h"
 #include "calib/diagnose/report.h"
@@ -23,20 +24,27 @@ json PlacesJson(const std::vector<PlacedEffect>& places) {
 }
 
 json EvidenceJson(const EffectEvidence& evidence) {
-  return {{"odds", JsonNumber(evidence.odds)},
-          {"odds_of_any", JsonNumber(evidence.odds_of_any)},
-          {"strength", JsonNumber(evidence.strength)},
-          {"chosen", evidence.chosen},
-          {"stronger", evidence.stronger},
-          {"least_share", evidence.least_share},
-          {"stronger_beside", evidence.stronger_beside},
-          {"since_reference", evidence.since_reference},
-          {"next", JsonNumber(evidence.next)},
-          {"events", evidence.events},
-          {"one_joint", JsonNumber(evidence.one_joint)},
-          {"gain", JsonNumber(evidence.gain)},
-          {"expected", JsonNumber(evidence.confirmation.expected)},
-          {"explained", JsonNumber(evidence.confirmation.explained)}};
+  const double expected = evidence.held_out
+                              ? evidence.gain.expected
+                              : std::numeric_limits<double>::quiet_NaN();
+  return {
+      {"odds", JsonNumber(evidence.odds)},
+      {"odds_of_any", JsonNumber(evidence.odds_of_any)},
+      {"strength", JsonNumber(evidence.strength)},
+      {"chosen", evidence.chosen},
+      {"stronger", evidence.stronger},
+      {"least_share", evidence.least_share},
+      {"stronger_beside", evidence.stronger_beside},
+      {"since_reference", evidence.since_reference},
+      {"next", JsonNumber(evidence.next)},
+      {"events", evidence.events},
+      {"one_joint", JsonNumber(evidence.one_joint)},
+      {"gain", JsonNumber(evidence.gain.value)},
+      {"gain_ci95",
+       {JsonNumber(evidence.gain.ci95[0]), JsonNumber(evidence.gain.ci95[1])}},
+      {"gain_expected", JsonNumber(expected)},
+      {"expected", JsonNumber(evidence.confirmation.expected)},
+      {"explained", JsonNumber(evidence.confirmation.explained)}};
 }
 
 json NumbersJson(const Eigen::VectorXd& values) {
@@ -171,6 +179,7 @@ json ShownJson(const GapDiagnosis& diagnosis) {
         {{"effect", shown.effect->name},
          {"joint", shown.joint < 0 ? "" : diagnosis.joints[shown.joint].name},
          {"joint_index", shown.joint + 1},
+         {"significant", shown.is_significant},
          {"estimates", EstimatesJson(shown.estimates, shown.stddev)}});
   }
   return list;

@@ -9,6 +9,7 @@
 #include "calib/diagnose/sentence.h"
 #include "model/log_files/torque_columns.h"
 #include "model/text/format.h"
+#include "model/text/input_text.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
@@ -125,7 +126,8 @@ std::string Unnamed(const GapDiagnosis& diagnosis) {
       text += Format(": would remove %.0f %% of what refitting leaves",
                      found.removed_percent);
     } else if (std::isfinite(found.removed_percent)) {
-      text += ": held out, it removes nothing";
+      text += found.gain.IsNone() ? ": held out, it removes nothing"
+                                  : ": held out, too small to show";
     }
     text += "\n" + Disagreement(found, diagnosis);
     if (found.one_of_few) text += Others(found, diagnosis);
@@ -262,6 +264,25 @@ std::string Next(const GapDiagnosis& diagnosis) {
   return text;
 }
 
+// Laws of the reference with their values, and by name those that help to
+// predict it but share their torque with others.
+std::string ReferenceShows(const GapDiagnosis& diagnosis) {
+  std::string text =
+      diagnosis.shown.empty() ? "" : "\nthe reference itself shows\n";
+  std::vector<std::string> others;
+  for (const ShownEffect& shown : diagnosis.shown) {
+    const std::string name = NameOf(*shown.effect, shown.joint, diagnosis);
+    if (!shown.is_significant) {
+      others.push_back(name);
+      continue;
+    }
+    text += "  " + name + ": " + Estimates(shown) + "\n";
+  }
+  return text + (others.empty() ? ""
+                                : "  laws whose sizes it does not tell: " +
+                                      JoinNames(others) + "\n");
+}
+
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
   const std::string before = SinceWhat(diagnosis);
   return before.empty() ? "\nparameters far from the file's\n"
@@ -288,11 +309,7 @@ std::string FullReport(const GapDiagnosis& diagnosis, bool verbose) {
   }
   text += Format("  noise told from: %s\n", NoiseFloorName(diagnosis.floor));
   text += "  torque: " + ScaleText(diagnosis.torque_constants_stddev) + "\n";
-  if (!diagnosis.shown.empty()) text += "\nthe reference itself shows\n";
-  for (const ShownEffect& shown : diagnosis.shown) {
-    text += "  " + NameOf(*shown.effect, shown.joint, diagnosis) + ": " +
-            Estimates(shown) + "\n";
-  }
+  text += ReferenceShows(diagnosis);
   if (!diagnosis.moved.empty()) text += MovedTitle(diagnosis);
   for (const MovedParameter& moved : diagnosis.moved) {
     text +=

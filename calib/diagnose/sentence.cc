@@ -20,8 +20,10 @@ const char* Lacks(double least_probability) {
 struct Named {
   std::vector<std::string> names;
   double least = 1;
+  bool would_show = false;  // one of them, on held-out data
 
   void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+    would_show |= found.gain.IsNone();
     names.push_back(NameOf(*found.effect, found.joint, diagnosis));
     least = std::min(least, found.probability);
   }
@@ -45,11 +47,16 @@ std::string TermsLacked(const Named& terms, double less) {
                     terms.names.size() > 1 ? "them" : "it", less);
 }
 
+// An effect that is a small part of the gap shrinks it by less than the rest
+// swings: that is no sign against it, where one that would shrink it is.
 std::string EffectsLacked(const Named& effects, bool besides, double removed) {
   const std::string text = effects.Lacked(besides ? "also " : "");
   if (!std::isfinite(removed)) return text;
   if (removed < .5) {
-    return text + ", which does not shrink the gap on held-out data";
+    return text + (effects.would_show
+                       ? ", which does not shrink the gap on held-out data"
+                       : ", too small a part of the gap for held-out data to "
+                         "show");
   }
   return text + Format(
                     ", which removes %.0f %% of the gap that refitting "

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "model/log_files/columns/wrench_columns.h"
 #include "model/ros_bags/cdr_reader.h"
 #include "model/ros_bags/open_bag.h"
 #include "model/text/input_error.h"
@@ -23,6 +25,11 @@ bool HasJointNames(const std::string& type) {
          IsControllerState(type);
 }
 
+bool IsRead(const std::string& type) {
+  return HasJointNames(type) || IsFloat64MultiArray(type) ||
+         IsWrenchStamped(type);
+}
+
 std::string Place(const std::string& topic, long message) {
   return "topic " + topic + ", message " + std::to_string(message);
 }
@@ -34,8 +41,9 @@ BagLog::BagLog(const std::string& path, const LineOptions& options)
       joint_names_(options.joint_names),
       chosen_(options.topics),
       effort_(options.effort) {
-  all_states_ = std::all_of(chosen_.begin(), chosen_.end(),
-                            [](const LogTopic& t) { return !!t.signal; });
+  all_states_ =
+      std::all_of(chosen_.begin(), chosen_.end(),
+                  [](const LogTopic& t) { return t.signal || t.wrench; });
 }
 
 std::vector<BagLog::Field> BagLog::FieldsOf(const Role& role,
@@ -80,7 +88,7 @@ BagLog::Topic& BagLog::FindTopic(const BagTopic& about) {
   topic.about = about;
   for (const LogTopic& chosen : chosen_) {
     if (chosen.name == about.name)
-      topic.roles.push_back({chosen.signal, {}, {}});
+      topic.roles.push_back({chosen.signal, chosen.wrench, {}, {}});
   }
   if (topic.roles.empty() && IsWanted(about)) topic.roles.push_back({});
   if (!topic.roles.empty()) CheckTopic(topic);
@@ -90,15 +98,25 @@ BagLog::Topic& BagLog::FindTopic(const BagTopic& about) {
 void BagLog::CheckTopic(const Topic& topic) const {
   const std::string place = "topic " + OneLine(topic.about.name),
                     type = OneLine(topic.about.type);
-  const bool states = HasJointNames(topic.about.type);
-  if (!states && !IsFloat64MultiArray(topic.about.type)) {
+  const bool states = HasJointNames(topic.about.type),
+             wrench = IsWrenchStamped(topic.about.type);
+  if (!IsRead(topic.about.type)) {
     throw InputError(path_, place, type,
                      "expected sensor_msgs/msg/JointState, "
                      "std_msgs/msg/Float64MultiArray, "
                      "control_msgs/msg/DynamicJointState or "
-                     "JointTrajectoryControllerState");
+                     "JointTrajectoryControllerState, or "
+                     "geometry_msgs/msg/WrenchStamped");
   }
   for (const Role& role : topic.roles) {
+    if (role.wrench != wrench) {
+      throw InputError(path_, place, type,
+                       wrench ? "is a force-torque sensor's: expected " +
+                                    OptionName("topics") +
+                                    "=wrench:" + OneLine(topic.about.name)
+                              : "expected geometry_msgs/msg/WrenchStamped");
+    }
+    if (wrench) continue;
     if (states && FieldsOf(role, topic).empty()) {
       throw InputError(path_, place, type,
                        "holds position, velocity and effort alone");
@@ -143,8 +161,13 @@ void BagLog::Add(const BagMessage& packed, Topic* topic) {
     }
     message.data = unpacked_;
   }
-  HasJointNames(topic->about.type) ? AddState(message, topic)
-                                   : AddArray(message, topic);
+  if (HasJointNames(topic->about.type)) {
+    AddState(message, topic);
+  } else if (IsWrenchStamped(topic->about.type)) {
+    AddWrench(message, topic);
+  } else {
+    AddArray(message, topic);
+  }
 }
 
 void BagLog::ReadState(const BagMessage& message, const Topic& topic) {
@@ -173,9 +196,7 @@ void BagLog::AddState(const BagMessage& message, Topic* topic) {
                                     : values[place]);
       }
     }
-    if (series.values.size() > kMostValues) {
-      throw InputError(path_, "", "", "has more than 8 GB of joint states");
-    }
+    CheckSize(series);
   }
 }
 
@@ -211,7 +232,11 @@ int BagLog::StartSeries(const Topic& topic, const Role& role,
   series.topic = topic.about.name;
   series.chosen = !!role.signal;
   series.has_stamps = has_stamps;
-  if (has_stamps) {
+  if (role.wrench) {
+    for (int k = 0; k < kWrenchColumns; ++k) {
+      series.channels.push_back({std::nullopt, k});
+    }
+  } else if (has_stamps) {
     for (const Field& field : FieldsOf(role, topic)) {
       for (const int j : joints) series.channels.push_back({field.signal, j});
     }
@@ -220,6 +245,26 @@ int BagLog::StartSeries(const Topic& topic, const Role& role,
   }
   series_.push_back(series);
   return static_cast<int>(series_.size()) - 1;
+}
+
+void BagLog::CheckSize(const JointSeries& series) const {
+  if (series.values.size() <= kMostValues) return;
+  throw InputError(path_, "topic " + OneLine(series.topic), "",
+                   "has more than 8 GB of numbers");
+}
+
+void BagLog::AddNumbers(const std::vector<int>& joints, std::int64_t stamp,
+                        std::int64_t received,
+                        const std::vector<double>& values, Topic* topic) {
+  for (Role& role : topic->roles) {
+    const auto [at, starts] = role.series.try_emplace(joints);
+    if (starts) at->second = StartSeries(*topic, role, joints, joints.empty());
+    JointSeries& series = series_[at->second];
+    series.times.push_back(stamp);
+    series.received.push_back(received);
+    series.values.insert(series.values.end(), values.begin(), values.end());
+    CheckSize(series);
+  }
 }
 
 // A number per joint, base to tip.
@@ -231,26 +276,30 @@ void BagLog::AddArray(const BagMessage& message, Topic* topic) {
                      "expected " + std::to_string(joint_names_.size()) +
                          ", one per joint of the robot, base to tip");
   }
-  std::vector<int> joints;
-  for (size_t j = 0; j < array_.size(); ++j) joints.push_back(j);
-  for (Role& role : topic->roles) {
-    const auto [at, starts] = role.series.try_emplace(joints);
-    if (starts) at->second = StartSeries(*topic, role, joints, false);
-    JointSeries& series = series_[at->second];
-    series.times.push_back(message.received);
-    series.received.push_back(message.received);
-    series.values.insert(series.values.end(), array_.begin(), array_.end());
-  }
+  std::vector<int> joints(array_.size());
+  std::iota(joints.begin(), joints.end(), 0);
+  AddNumbers(joints, message.received, message.received, array_, topic);
+}
+
+void BagLog::AddWrench(const BagMessage& message, Topic* topic) {
+  ReadWrenchStamped(message.data, &wrench_);
+  AddNumbers({}, wrench_.stamp, message.received, wrench_.values, topic);
 }
 
 std::vector<JointSeries> BagLog::TakeSeries() {
   for (const LogTopic& chosen : chosen_) {
     const auto at = topics_.lower_bound({chosen.name, ""});
-    if (at != topics_.end() && at->first.first == chosen.name) continue;
+    if (at != topics_.end() && at->first.first == chosen.name) {
+      if (!chosen.wrench || at->second.messages > 0) continue;
+      throw InputError(path_, "topic " + OneLine(chosen.name), "",
+                       "has no messages");
+    }
     throw InputError(path_, "topic " + OneLine(chosen.name), "",
                      "is not in the bag; " + Topics());
   }
-  for (JointSeries& series : series_) DropEmptyChannels(&series);
+  for (JointSeries& series : series_) {
+    if (series.channels[0].signal) DropEmptyChannels(&series);
+  }
   return std::move(series_);
 }
 
@@ -260,13 +309,11 @@ std::string BagLog::Topics() const {
   std::vector<std::string> list, others;
   for (const auto& [name_and_type, topic] : topics_) {
     const BagTopic& about = topic.about;
-    const bool read =
-        HasJointNames(about.type) || IsFloat64MultiArray(about.type);
     std::string text = OneLine(about.name) + " (" + OneLine(about.type);
     if (!topic.names.empty()) {
       text += " of " + JoinNames({topic.names.begin(), topic.names.end()});
     }
-    (read ? list : others).push_back(text + ")");
+    (IsRead(about.type) ? list : others).push_back(text + ")");
   }
   list.insert(list.end(), others.begin(), others.end());
   std::string text;

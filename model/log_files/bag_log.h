@@ -11,18 +11,21 @@
 #include "model/log_files/line_source.h"
 #include "model/ros_bags/bag_file.h"
 #include "model/ros_bags/joint_messages.h"
+#include "model/ros_bags/wrench_message.h"
 
 namespace armcal {
 
-// What the messages of a ROS 2 bag say about a robot's joints. Messages of one
-// topic that name other joints of the robot are a series of their own; those
-// that name none (a gripper's) are left out.
+// What the messages of a ROS 2 bag say about a robot's joints and its
+// force-torque sensor. Messages of one topic that name other joints of the
+// robot are a series of their own; those that name none (a gripper's) are left
+// out.
 class BagLog {
  public:
   // Of `options.topics`; where they are none, or all have a signal of their
-  // own, of all other topics of type JointState too; those of ros2_control,
-  // which say the same again, have to be named. Throws InputError, also
-  // for a topic that is not there.
+  // own or are wrenches, of all other topics of type JointState too; those of
+  // ros2_control, which say the same again, have to be named, as do wrenches:
+  // of some robots they are estimates, in other axes than a sensor's. Throws
+  // InputError, also for a topic that is not there.
   BagLog(const std::string& path, const LineOptions& options);
 
   // Reads a file of the bag. They come in the order of recording.
@@ -46,6 +49,7 @@ class BagLog {
   // What one topic's messages are taken for.
   struct Role {
     std::optional<Signal> signal;
+    bool wrench = false;
     std::map<std::string, Layout> layouts;   // by the bytes of the names
     std::map<std::vector<int>, int> series;  // by the robot's joints named
   };
@@ -63,6 +67,12 @@ class BagLog {
   void ReadState(const BagMessage& message, const Topic& topic);
   void AddState(const BagMessage& message, Topic* topic);
   void AddArray(const BagMessage& message, Topic* topic);
+  void AddWrench(const BagMessage& message, Topic* topic);
+  // Numbers of `joints` (none: of a sensor) at a stamp, to the topic's series.
+  void AddNumbers(const std::vector<int>& joints, std::int64_t stamp,
+                  std::int64_t received, const std::vector<double>& values,
+                  Topic* topic);
+  void CheckSize(const JointSeries& series) const;
   const Layout& FindLayout(Role* role, Topic* topic);
   std::vector<Field> FieldsOf(const Role& role, const Topic& topic) const;
   int StartSeries(const Topic& topic, const Role& role,
@@ -76,6 +86,7 @@ class BagLog {
   std::map<std::pair<std::string, std::string>, Topic> topics_;  // name, type
   std::vector<JointSeries> series_;
   JointState state_;
+  StampedWrench wrench_;
   std::vector<double> array_;
   std::string unpacked_;
 };

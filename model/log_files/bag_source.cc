@@ -4,6 +4,7 @@
 #include <list>
 
 #include "model/log_files/bag_log.h"
+#include "model/log_files/columns/wrench_columns.h"
 #include "model/ros_bags/bag_folder.h"
 #include "model/text/exact_digits.h"
 #include "model/text/input_error.h"
@@ -11,6 +12,16 @@
 #include "model/text/option_name.h"
 
 namespace armcal {
+namespace {
+
+// By number: a joint's name may hold what separates columns.
+std::string ColumnName(const JointSeries::Channel& channel) {
+  if (!channel.signal) return kWrenchNames[channel.index];
+  return std::string(NamesOf(*channel.signal).number_prefix) +
+         std::to_string(channel.index + 1);
+}
+
+}  // namespace
 
 BagSource::BagSource(const std::string& path, const LineOptions& options)
     : path_(path), joint_names_(options.joint_names) {
@@ -21,11 +32,9 @@ BagSource::BagSource(const std::string& path, const LineOptions& options)
   ChooseColumns(series);
   NoteEfforts();
   Join(series);
-  // By number: a joint's name may hold what separates columns.
   header_ = "t [ns]";
   for (const Column& column : columns_) {
-    header_ += "," + std::string(NamesOf(column.signal).number_prefix) +
-               std::to_string(column.joint + 1);
+    header_ += "," + ColumnName(column.about);
   }
 }
 
@@ -35,25 +44,30 @@ void BagSource::ChooseColumns(const std::vector<JointSeries>& series) {
   for (const Signal signal : kSignals) {
     for (int j = 0; j < joints; ++j) {
       const size_t before = columns_.size();
-      ChooseColumn(signal, j, series);
+      ChooseColumn({signal, j}, series);
       if (signal == Signal::kPosition && columns_.size() == before) {
         missing.push_back(joint_names_[j]);
       }
     }
   }
-  if (missing.empty()) return;
-  throw InputError(
-      path_, "", "",
-      "no message gives the position of " + JoinNames(missing) + "; " + about_);
+  if (!missing.empty()) {
+    throw InputError(path_, "", "",
+                     "no message gives the position of " + JoinNames(missing) +
+                         "; " + about_);
+  }
+  for (int k = 0; k < kWrenchColumns; ++k) {
+    ChooseColumn({std::nullopt, k}, series);
+  }
 }
 
 // ros2_control publishes efforts that no one measures as NaN.
 void BagSource::NoteEfforts() {
   std::vector<std::string> without = joint_names_;
   for (const Column& column : columns_) {
-    if (column.signal == Signal::kEffort || column.signal == Signal::kCurrent ||
-        column.signal == Signal::kVoltage) {
-      without[column.joint].clear();
+    const std::optional<Signal> signal = column.about.signal;
+    if (signal == Signal::kEffort || signal == Signal::kCurrent ||
+        signal == Signal::kVoltage) {
+      without[column.about.index].clear();
     }
   }
   without.erase(std::remove(without.begin(), without.end(), ""), without.end());
@@ -62,33 +76,41 @@ void BagSource::NoteEfforts() {
             " is empty or NaN in all messages";
 }
 
-void BagSource::ChooseColumn(Signal signal, int joint,
+// "the effort of joint elbow".
+std::string BagSource::WhatIs(const JointSeries::Channel& channel) const {
+  if (!channel.signal) return "the force-torque sensor";
+  return "the " + std::string(NamesOf(*channel.signal).path_part) +
+         " of joint " + joint_names_[channel.index];
+}
+
+void BagSource::ChooseColumn(const JointSeries::Channel& wanted,
                              const std::vector<JointSeries>& series) {
   std::vector<Column> found;
   bool chosen = false;
   for (size_t s = 0; s < series.size(); ++s) {
     for (size_t c = 0; c < series[s].channels.size(); ++c) {
       const JointSeries::Channel& channel = series[s].channels[c];
-      if (channel.signal != signal || channel.joint != joint) continue;
+      if (channel.signal != wanted.signal || channel.index != wanted.index)
+        continue;
       if (chosen && !series[s].chosen) continue;
       if (series[s].chosen && !chosen) found.clear();
       chosen = series[s].chosen;
-      found.push_back({signal, joint, s, c});
+      found.push_back({wanted, s, c});
     }
   }
   if (found.empty()) return;
   columns_.push_back(found[0]);
   if (found.size() == 1) return;
-  const std::string what = "the " + std::string(NamesOf(signal).path_part) +
-                           " of joint " + joint_names_[joint] + " is in ";
+  const std::string what = WhatIs(wanted) + " is in ";
   const std::string a = series[found[0].series].topic,
                     b = series[found[1].series].topic;
   throw InputError(path_, "", "",
-                   a == b ? what + "messages of different joints of topic " +
-                                OneLine(a) + ", expected one kind"
-                          : what + OneLine(a) + " and in " + OneLine(b) +
-                                ": choose one by " + OptionName("topics") +
-                                "=" + OneLine(a));
+                   a == b
+                       ? what + "messages of different joints of topic " +
+                             OneLine(a) + ", expected one kind"
+                       : what + OneLine(a) + " and in " + OneLine(b) +
+                             ": choose one by " + OptionName("topics") +
+                             (wanted.signal ? "=" : "=wrench:") + OneLine(a));
 }
 
 void BagSource::Join(const std::vector<JointSeries>& series) {

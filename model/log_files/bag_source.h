@@ -26,13 +26,13 @@ class BagSource : public LineSource {
 
  private:
   struct Column {
-    Signal signal;
-    int joint;
+    JointSeries::Channel about;
     size_t series, channel;
   };
   void ChooseColumns(const std::vector<JointSeries>& series);
-  void ChooseColumn(Signal signal, int joint,
+  void ChooseColumn(const JointSeries::Channel& wanted,
                     const std::vector<JointSeries>& series);
+  std::string WhatIs(const JointSeries::Channel& channel) const;
   void NoteEfforts();
   void Join(const std::vector<JointSeries>& series);
   void CheckTimes(const std::string& topic) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,11 +9,13 @@
 
 namespace armcal {
 
-// Signals of some of the robot's joints, as messages of one topic gave them.
+// Signals of some of the robot's joints, or those of a force-torque sensor, as
+// messages of one topic gave them.
 struct JointSeries {
   struct Channel {
-    Signal signal;
-    int joint;  // 0-based, base to tip
+    std::optional<Signal> signal;  // none: of a force-torque sensor
+    // 0-based: the joint, base to tip; of a sensor which of kWrenchNames.
+    int index;
   };
 
   std::string topic;

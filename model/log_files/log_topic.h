@@ -12,6 +12,8 @@ struct LogTopic {
   std::string name;
   // What its numbers are; nothing: what a JointState's fields say.
   std::optional<Signal> signal;
+  // Of a force-torque sensor, not of joints.
+  bool wrench = false;
 };
 
 }  // namespace armcal

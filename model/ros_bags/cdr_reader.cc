@@ -76,6 +76,13 @@ std::string_view CdrReader::Texts(std::vector<std::string_view>* texts) {
   return bytes_.substr(begin, at_ - begin);
 }
 
+double CdrReader::Double() {
+  const std::uint64_t bits = Take(8);
+  double value;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
 void CdrReader::Doubles(std::vector<double>* values) {
   const std::uint32_t count = Unsigned();
   values->clear();
@@ -87,10 +94,7 @@ void CdrReader::Doubles(std::vector<double>* values) {
         Plural(bytes_.size() - std::min(at_, bytes_.size()), "byte") + " do");
   }
   values->resize(count);
-  for (double& value : *values) {
-    const std::uint64_t bits = Take(8);
-    std::memcpy(&value, &bits, sizeof value);
-  }
+  for (double& value : *values) value = Double();
 }
 
 void CdrReader::End() const {

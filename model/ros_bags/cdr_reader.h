@@ -23,6 +23,7 @@ class CdrReader {
 
   std::uint32_t Unsigned();
   std::int32_t Signed() { return static_cast<std::int32_t>(Unsigned()); }
+  double Double();
   std::string_view Text();                    // without its final 0
   void Doubles(std::vector<double>* values);  // a sequence
   // A sequence of texts; returns its bytes too, which tell equal ones.

@@ -4,15 +4,10 @@
 #include <string>
 
 #include "model/ros_bags/cdr_reader.h"
+#include "model/ros_bags/message_header.h"
 
 namespace armcal {
 namespace {
-
-bool IsType(std::string_view type, std::string_view package,
-            std::string_view name) {
-  const std::string stem(package), end(name);
-  return type == stem + "/msg/" + end || type == stem + "/" + end;
-}
 
 void CheckCount(const std::vector<double>& values, size_t names,
                 const char* what) {
@@ -31,15 +26,7 @@ void CheckCounts(const JointState& state) {
 
 // The header and the joints' names.
 void ReadBegin(CdrReader* cdr, JointState* state) {
-  constexpr std::int64_t kBillion = 1000000000;
-  const std::int64_t seconds = cdr->Signed();
-  const std::uint32_t nanoseconds = cdr->Unsigned();
-  if (nanoseconds >= kBillion) {
-    throw CdrError("has " + std::to_string(nanoseconds) +
-                   " ns in its stamp, expected less than a second");
-  }
-  state->stamp = seconds * kBillion + nanoseconds;
-  cdr->Text();  // the frame
+  state->stamp = ReadStamp(cdr);
   state->name_bytes = cdr->Texts(&state->names);
   state->reference.clear();
 }
@@ -66,19 +53,19 @@ std::vector<double>* ArrayOf(std::string_view interface, JointState* state) {
 }  // namespace
 
 bool IsJointState(std::string_view type) {
-  return IsType(type, "sensor_msgs", "JointState");
+  return IsMessageType(type, "sensor_msgs", "JointState");
 }
 
 bool IsFloat64MultiArray(std::string_view type) {
-  return IsType(type, "std_msgs", "Float64MultiArray");
+  return IsMessageType(type, "std_msgs", "Float64MultiArray");
 }
 
 bool IsDynamicJointState(std::string_view type) {
-  return IsType(type, "control_msgs", "DynamicJointState");
+  return IsMessageType(type, "control_msgs", "DynamicJointState");
 }
 
 bool IsControllerState(std::string_view type) {
-  return IsType(type, "control_msgs", "JointTrajectoryControllerState");
+  return IsMessageType(type, "control_msgs", "JointTrajectoryControllerState");
 }
 
 void ReadJointState(std::string_view message, JointState* state) {

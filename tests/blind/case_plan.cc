@@ -94,6 +94,14 @@ CasePlan PlanCase(Stratum stratum, uint32_t k) {
   return plan;
 }
 
+CasePlan PlanCase(const HiddenEffect& effect, uint32_t k) {
+  const auto kinds = Kinds(true);
+  const auto at = std::find(kinds.begin(), kinds.end(), &effect);
+  CHECK(at != kinds.end()) << effect.name << " is not in the catalogue";
+  return PlanCase(Stratum::kOne, static_cast<uint32_t>(k * kinds.size() +
+                                                       (at - kinds.begin())));
+}
+
 CasePlan PlanCase(uint32_t index) {
   // The stratum that is furthest behind its share is next.
   std::array<long, kNumStrata> drawn = {};

@@ -57,6 +57,8 @@ struct CasePlan {
 CasePlan PlanCase(uint32_t index);
 // Case `k` of one stratum.
 CasePlan PlanCase(Stratum stratum, uint32_t k);
+// Case `k` of those of one effect of the catalogue, as stratum kOne has them.
+CasePlan PlanCase(const HiddenEffect& effect, uint32_t k);
 // How many cases the evaluation has.
 uint32_t EvaluationCases();
 

@@ -44,6 +44,22 @@ TEST(CasePlan, EvaluationHasTheCasesAskedFor) {
   EXPECT_EQ(outside.size(), 13u);
 }
 
+// As stratum one has them: nine cases, of which two are faint.
+TEST(CasePlan, OfOneEffectAlone) {
+  const HiddenEffect& elasticity = *FindHiddenEffect("elasticity");
+  int faint = 0;
+  std::set<Excitation> excitations;
+  for (uint32_t k = 0; k < 9; ++k) {
+    const CasePlan plan = PlanCase(elasticity, k);
+    EXPECT_EQ(plan.stratum, Stratum::kOne);
+    EXPECT_EQ(plan.effect, &elasticity);
+    faint += plan.lowest_bin < 2;
+    excitations.insert(plan.excitation);
+  }
+  EXPECT_EQ(faint, 2);
+  EXPECT_GT(excitations.size(), 1u);
+}
+
 // Any stretch of 100 cases has its share of each stratum, to a case or two.
 TEST(CasePlan, EveryStretchHasItsShares) {
   for (const uint32_t first : {0u, 150u, 500u, 1000u}) {

@@ -27,7 +27,8 @@ DEFINE_uint32(first, 0, "index of the first case");
 DEFINE_uint32(cases, 100, "how many");
 DEFINE_string(plan, "evaluation",
               "all strata in their shares, or one of them: none_rich, "
-              "none_poor, one, two, outside");
+              "none_poor, one, two, outside; or an effect of the catalogue, as "
+              "stratum one has it");
 DEFINE_string(logs, "blind/logs", "folder for robot files and logs");
 DEFINE_bool(torques, true,
             "false: logs hold times, positions and commands alone, the "
@@ -143,6 +144,8 @@ ScenarioRun Reference(const BlindCase& blind) {
 // As --plan says.
 CasePlan Plan(uint32_t index) {
   const auto stratum = StratumOf(FLAGS_plan);
+  const HiddenEffect* const effect = FindHiddenEffect(FLAGS_plan);
+  if (effect != nullptr) return PlanCase(*effect, index);
   return stratum ? PlanCase(*stratum, index) : PlanCase(index);
 }
 
@@ -175,9 +178,11 @@ void WriteCase(BlindSet set, uint32_t index) {
 
 // What is wrong with the flags; empty where nothing is.
 std::string WhyNot() {
-  if (FLAGS_plan != "evaluation" && !StratumOf(FLAGS_plan)) {
-    return "--plan: expected evaluation, none_rich, none_poor, one, two or "
-           "outside";
+  const HiddenEffect* const effect = FindHiddenEffect(FLAGS_plan);
+  if (FLAGS_plan != "evaluation" && !StratumOf(FLAGS_plan) &&
+      (effect == nullptr || !effect->in_catalogue)) {
+    return "--plan: expected evaluation, none_rich, none_poor, one, two, "
+           "outside or an effect of the catalogue";
   }
   if (FLAGS_jobs < 1) return "--jobs: expected a number of at least 1";
   return WhyNotWritten(FLAGS_set, FLAGS_seed, FLAGS_logs, FLAGS_labels);

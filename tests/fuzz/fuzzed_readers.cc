@@ -31,11 +31,20 @@ std::string BytesOf(const std::string& path) {
   return file.str();
 }
 
-void ReadLog(const std::string& path) {
+LogReaderOptions AllSignals() {
   LogReaderOptions options;
   options.joint_names = FuzzedRobot().JointNames();
   options.want_velocity = options.want_acceleration = true;
   options.want_reference = options.want_temperature = true;
+  return options;
+}
+
+void ReadLog(const std::string& path) { ReadWholeLog(path, AllSignals()); }
+
+void ReadLogWithSensor(const std::string& path) {
+  LogReaderOptions options = AllSignals();
+  options.topics = {{"/ft", std::nullopt, true}};
+  options.want_wrench = true;
   ReadWholeLog(path, options);
 }
 
@@ -108,6 +117,7 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"gz", "input.csv.gz", ReadLog},
       {"db3", "input.db3", ReadLog},
       {"mcap", "input.mcap", ReadLog},
+      {"wrench", "input.mcap", ReadLogWithSensor},
       {"npz", "input.npz", ReadLog},
       {"mat", "input.mat", ReadLog},
       {"urdf", "input.urdf", ReadAnyRobot},

@@ -70,6 +70,7 @@ def main():
                 "csv": [csv], "gz": [zipped],
                 "db3": (folder / "written").glob("*.db3"),
                 "mcap": (folder / "written").glob("*.mcap"),
+                "wrench": [folder / "written/wrench.mcap"],
                 "npz": (folder / "npz").glob("*.npz"),
                 "mat": (folder / "written").glob("*.mat"),
                 "urdf": [data / "six_axis/robot.urdf"],

@@ -82,6 +82,55 @@ def one_state(message, k=3):
     return STATES[:k] + [message] + STATES[k + 1:]
 
 
+def wrench(k, nanoseconds=None, values=(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)):
+    message = Cdr().add("i", 1).add("I", 10000000 * k if nanoseconds is None else nanoseconds)
+    return bytes(message.text("tool").add("d", *values))
+
+
+def sensor_db3(messages):
+    """A bag with a force-torque sensor's messages beside those of the joints."""
+    return db3(more=["INSERT INTO topics VALUES (2, '/ft', 'geometry_msgs/msg/WrenchStamped', 'cdr')"] + [
+        f"INSERT INTO messages VALUES ({1000 + k}, 2, {10**9 + k * 10**7}, x'{m.hex()}')"
+        for k, m in enumerate(messages)])
+
+
+def sensor(messages):
+    return written("log.db3", sensor_db3(messages))
+
+
+WRENCHES = [wrench(k) for k in range(40)]
+
+
+def one_wrench(message, k=3):
+    return sensor(WRENCHES[:k] + [message] + WRENCHES[k + 1:])
+
+
+SENSOR = Group("sensor", "calibrate --robot=robot.yaml --log=log.db3 --topics=wrench:/ft --out=out",
+               {"robot.yaml": ARM, "log.db3": sensor_db3(WRENCHES)}, [
+    Row("no sensor", bag(), "log.db3: topic /ft: is not in the bag; the bag has /joint_states "
+        "(sensor_msgs/msg/JointState of joint1, joint2)"),
+    Row("no messages of it", sensor([]), "log.db3: topic /ft: has no messages"),
+    Row("cut", one_wrench(wrench(3)[:60]),
+        "log.db3: topic /ft, message 4: ends after 60 bytes, in the middle of a value; expected "
+        "a message of geometry_msgs/msg/WrenchStamped"),
+    Row("bytes too many", one_wrench(wrench(3) + bytes(16)),
+        "log.db3: topic /ft, message 4: has 16 bytes too many; expected a message of "
+        "geometry_msgs/msg/WrenchStamped"),
+    Row("nanoseconds beyond a second", one_wrench(wrench(3, nanoseconds=1 << 31)),
+        "log.db3: topic /ft, message 4: has 2147483648 ns in its stamp, expected less than a "
+        "second; expected a message of geometry_msgs/msg/WrenchStamped"),
+    Row("time backwards", one_wrench(wrench(3, nanoseconds=0)),
+        "log.db3: topic /ft, message 4: found '1000000000 ns': time runs backwards, the message "
+        "before has 1020000000 ns"),
+    Row("nan", one_wrench(wrench(3, values=(1.0, 2.0, 3.0, 4.0, 5.0, float("nan")))),
+        "log.db3: row 5, column tz: found 'nan': expected a finite number"),
+    Row("stamps of another clock", sensor([wrench(0)[:4] + b"\0" * 4 + m[8:] for m in WRENCHES]),
+        "log.db3: the messages that are to be joined are of different times; the bag has /ft "
+        "(geometry_msgs/msg/WrenchStamped), /joint_states (sensor_msgs/msg/JointState of joint1, "
+        "joint2)"),
+])
+
+
 DB3 = Group("db3", "calibrate --robot=robot.yaml --log=log.db3 --out=out",
             {"robot.yaml": ARM, "log.db3": db3()}, [
     Row("first bytes alone", written("log.db3", b"SQLite format 3\0"),
@@ -382,4 +431,4 @@ FOLDER = Group("bag folder", "calibrate --robot=robot.yaml --log=bag --out=out",
     Row("metadata is a device", linked("bag/metadata.yaml", "/dev/zero"),
         "bag/metadata.yaml: is larger than 1 MiB, the most that such a file may have"),
 ])
-GROUPS = [DB3, MCAP, FOLDER]
+GROUPS = [DB3, SENSOR, MCAP, FOLDER]

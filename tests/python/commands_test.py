@@ -113,6 +113,18 @@ class Calibrate(InFolder):
         np.testing.assert_allclose(read.t, rows["t"] - rows["t"][0],
                                    atol=1e-12)
 
+    def test_a_force_torque_sensor_in_arrays_as_in_the_file(self):
+        read = armcal.read_log("run1/log.csv", self.robot)
+        wrench = np.outer(np.sin(read.t), np.arange(1.0, 7.0))
+        log = armcal.Log(t=read.t, q=read.q, tau=read.tau, wrench=wrench)
+        log.savez("sensor.npz")
+        np.testing.assert_array_equal(
+            armcal.read_log("sensor.npz", self.robot, wrench=True).wrench,
+            wrench)
+        self.assertIsNone(armcal.read_log("sensor.npz", self.robot).wrench)
+        with self.assertRaisesRegex(ValueError, r"wrench: found shape .*, 5\)"):
+            armcal.Log(t=read.t, q=read.q, tau=read.tau, wrench=wrench[:, :5])
+
     def test_refusals(self):
         log = "run1/log.csv"
         short = armcal.Log(t=[0, 1], q=np.zeros((2, 3)), tau=np.zeros((2, 3)),

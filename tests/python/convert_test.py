@@ -40,12 +40,13 @@ class Convert(InFolder):
         self.q, self.tau = (np.stack([rows[f"{s}1"], rows[f"{s}2"]], -1)
                             for s in ("q", "tau"))
 
-    def expect_log(self, path, q, tau):
-        log = armcal.read_log(path, self.robot)
+    def expect_log(self, path, q, tau, **options):
+        log = armcal.read_log(path, self.robot, **options)
         np.testing.assert_array_equal(log.q, q)
         np.testing.assert_array_equal(log.tau, tau)
         np.testing.assert_allclose(log.t, 1e-9 * (self.ns - self.ns[0]),
                                    atol=1e-12)
+        return log
 
     def expect_refusal(self, words, *arguments):
         with self.assertRaises(armcal.InputError) as caught:
@@ -95,8 +96,24 @@ class Convert(InFolder):
 
     # -- bags of ROS 1 -----------------------------------------------------
 
-    def write_bag(self, path, topics, stamped=True):
-        """topics: {topic: (names, positions, efforts)}."""
+    def write_wrench(self, bag, values):
+        if values is None:
+            return
+        kind = "geometry_msgs/msg/WrenchStamped"
+        stamped, wrench, vector, header, time = (ROS1.types[name] for name in (
+            kind, "geometry_msgs/msg/Wrench", "geometry_msgs/msg/Vector3",
+            "std_msgs/msg/Header", "builtin_interfaces/msg/Time"))
+        to = bag.add_connection("/ft", kind, typestore=ROS1)
+        for k, ns in enumerate(self.ns.tolist()):
+            six = [float(v) for v in values[k]]
+            message = stamped(
+                header=header(seq=k, stamp=time(*divmod(ns, 10**9)),
+                              frame_id="tool"),
+                wrench=wrench(force=vector(*six[:3]), torque=vector(*six[3:])))
+            bag.write(to, ns + 10**6, ROS1.serialize_ros1(message, kind))
+
+    def write_bag(self, path, topics, stamped=True, wrench=None):
+        """topics: {topic: (names, positions, efforts)}; wrench: (N, 6)."""
         state, header, time, text = (ROS1.types[f"{name}"] for name in (
             STATE, "std_msgs/msg/Header", "builtin_interfaces/msg/Time",
             "std_msgs/msg/String"))
@@ -111,6 +128,7 @@ class Convert(InFolder):
                         velocity=np.zeros(0), effort=efforts[k])
                     bag.write(to, ns + 10**6,
                               ROS1.serialize_ros1(message, STATE))
+            self.write_wrench(bag, wrench)
             chatter = bag.add_connection("/chatter", "std_msgs/msg/String",
                                          typestore=ROS1)
             bag.write(chatter, int(self.ns[-1]), ROS1.serialize_ros1(
@@ -127,6 +145,19 @@ class Convert(InFolder):
             f"arm_ros2: {len(self.ns)} messages of /joint2/states",
             "left out: /chatter (std_msgs/String)"])
         self.expect_log("arm_ros2", self.q, self.tau)
+
+    @NEEDS_ROSBAGS
+    def test_a_force_torque_sensor(self):
+        wrench = self.q[:, :1] * np.arange(1.0, 7.0)
+        self.write_bag("sensor.bag", {"/states": (NAMES, self.q, self.tau)},
+                       wrench=wrench)
+        said = convert("sensor.bag", "sensor_ros2")
+        self.assertIn(f"sensor_ros2: {len(self.ns)} messages of /ft", said)
+        log = self.expect_log("sensor_ros2", self.q, self.tau,
+                              topics="wrench:/ft", wrench=True)
+        np.testing.assert_array_equal(log.wrench, wrench)
+        self.assertIsNone(self.expect_log("sensor_ros2", self.q, self.tau,
+                                          wrench=True).wrench)
 
     @NEEDS_ROSBAGS
     def test_bags_that_are_refused(self):

@@ -169,12 +169,13 @@ std::vector<PredictedLog> Trace(const Outcome& outcome,
 }
 
 Log ReadLog(const std::string& path, const LoadedRobot& robot,
-            const FlagTexts& flags, bool torque) {
+            const FlagTexts& flags, bool torque, bool wrench) {
   LogReaderOptions options =
       LogOptionsFromFlags(FlagsOf(CommandNamed("inspect"), flags), robot.robot);
   options.need_torque = torque;
   options.want_velocity = options.want_acceleration = true;
   options.want_reference = options.want_temperature = true;
+  options.want_wrench = wrench;
   return ReadWholeLog(path, options);
 }
 
@@ -201,6 +202,7 @@ void AddCommands(py::module_* module) {
       .def_readonly("tau", &Log::tau)
       .def_readonly("qref", &Log::qref)
       .def_readonly("temperature", &Log::temperature)
+      .def_readonly("wrench", &Log::wrench)
       .def_readonly("simulated", &Log::simulated);
   module->def("run", &Run, py::arg("command"), py::arg("flags"),
               py::arg("robot") = py::none(), py::arg("progress") = py::none(),
@@ -216,6 +218,7 @@ void AddCommands(py::module_* module) {
               "Measured and predicted torques of logs.");
   module->def("read_log", &ReadLog, py::arg("path"), py::arg("robot"),
               py::arg("flags"), py::arg("torque") = true,
+              py::arg("wrench") = false,
               py::call_guard<DecimalPoint, py::gil_scoped_release>(),
               "The signals of a log that the robot has joints for.");
 }

@@ -14,7 +14,8 @@ bool IsClaimedAt(const FoundEffect& found, double probability) {
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // At a frequency that other data do not have, it was a random torque.
-  if (SwingsInTime(*found.effect) && found.evidence.gain <= 0) return false;
+  if (SwingsInTime(*found.effect) && found.evidence.gain.value <= 0)
+    return false;
   return probability >=
          (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
 }
@@ -56,7 +57,8 @@ bool IsContradicted(const FoundEffect& found) {
   return confirmation.expected >
              std::max(Limits().visible,
                       Limits().form_error * found.delta_chi2) &&
-         confirmation.explained < 0 && found.evidence.gain < Limits().helps;
+         confirmation.explained < 0 &&
+         found.evidence.gain.value < Limits().helps;
 }
 
 bool IsClaimed(const FoundEffect& found) {

@@ -109,8 +109,8 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
 // error of its form. With held-out data there are two more: by how much the
 // mean square falls without noise being modelled, and what the posterior
 // predicts of the effect there (Confirmation), in all and in the part that has
-// least of it. `removes_gap` is asked where the effect is the only one, since
-// the interval of the removed share is that of all of them together.
+// least of it. `removes_gap` is asked where the effect is the only one: the
+// interval of what all remove holds how well the floor is known, too.
 EffectEvidence GapEvidence::ForEffect(
     size_t k, const std::vector<PlacedEffect>& all) const {
   EffectEvidence evidence = common_;
@@ -135,7 +135,7 @@ EffectEvidence GapEvidence::ForEffect(
   }
   if (!figures_.known()) return evidence;
   evidence.held_out = true;
-  evidence.gain = held_out_.GainOf(k, figures_.after);
+  evidence.gain = held_out_.GainOf(k);
   const std::vector<Confirmation> parts = held_out_.ConfirmationsOf(k, alike);
   evidence.confirmation = SumOf(parts);
   evidence.least_share = LeastShare(parts);

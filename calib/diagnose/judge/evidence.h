@@ -24,7 +24,7 @@ struct EffectEvidence {
   double next = 0;       // score of the best further candidate, at least 0
   int events = 0;        // windows of it, of what comes and goes
   double one_joint = 0;  // GapEvent's, of the strongest
-  double gain = 0;       // by how much it lowers the held-out mean square
+  EffectGain gain;
   bool since_reference = false;  // whether it is a change since one
   bool held_out = false;         // whether there are held-out data
   Confirmation confirmation;     // by them

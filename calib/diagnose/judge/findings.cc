@@ -23,14 +23,21 @@ using Eigen::VectorXd;
 // Sets what a fitted effect removes of the refit's held-out gap: all that is
 // removed, with its interval, where it is the only one; else by its gain, where
 // the refit leaves more than noise. Of several that only fit together, one may
-// gain more than there is: it removes all of it.
-void SetShare(const GapFit& fit, const GapFigures& torque, double gain,
-              FoundEffect* found) {
+// gain more than there is: it removes all of it. Their intervals are those of
+// the gain, over a gap that is taken as known.
+void SetShare(const GapFit& fit, const GapFigures& torque,
+              const EffectGain& gain, FoundEffect* found) {
+  found->gain = gain;
   if (fit.refined().effects.size() == 1) {
     found->removed_percent = torque.removed_percent;
     std::copy(torque.ci95, torque.ci95 + 2, found->ci95);
   } else if (torque.known() && torque.refit > 1) {
-    found->removed_percent = std::min(100., 100 * gain / (torque.refit - 1));
+    const auto share = [&](double lowered) {
+      return std::min(100., 100 * lowered / (torque.refit - 1));
+    };
+    found->removed_percent = share(gain.value);
+    if (std::isnan(torque.removed_percent) || std::isnan(gain.ci95[0])) return;
+    std::transform(gain.ci95, gain.ci95 + 2, found->ci95, share);
   }
 }
 
@@ -129,8 +136,8 @@ FoundEffect Findings::Found(size_t k) const {
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);
   }
-  found.over_change =
-      OverChangedFriction(fit_, torque_, effect.joint, found.evidence.gain);
+  found.over_change = OverChangedFriction(fit_, torque_, effect.joint,
+                                          found.evidence.gain.value);
   found.probability = ProbabilityOf(found.evidence);
   found.any_probability = ProbabilityOfAny(found.evidence);
   SetShare(fit_, torque_, found.evidence.gain, &found);
@@ -314,8 +321,7 @@ void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       std::vector<FoundEffect>* effects) {
   for (FoundEffect& found : *effects) {
     if (found.fitted.empty() || !torque.known()) continue;
-    SetShare(fit, torque, held_out.GainOf(found.fitted[0], torque.after),
-             &found);
+    SetShare(fit, torque, held_out.GainOf(found.fitted[0]), &found);
   }
 }
 

@@ -42,7 +42,8 @@ struct FoundEffect {
   std::vector<PlacedEffect> equivalent;
   // Whether these are few, and one of them is claimed though none is by itself.
   bool one_of_few = false;
-  // Of the held-out gap, by this one given the others; NaN: not known.
+  EffectGain gain;  // given the others of the fit
+  // The same over the held-out gap, with its interval; NaN: not known.
   double removed_percent = NAN;
   double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart

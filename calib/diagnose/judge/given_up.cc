@@ -9,15 +9,10 @@
 namespace armcal {
 namespace {
 
-// Whether held-out data have no less of a gap with it. The removed share is the
-// whole fit's where the effect is alone, and else its own gain.
-bool LeavesNoLess(const FoundEffect& found, const GapFigures& torque,
-                  const std::vector<FoundEffect>& effects) {
-  if (std::isnan(torque.removed_percent) || found.fitted.empty()) return false;
-  const auto fitted =
-      std::count_if(effects.begin(), effects.end(),
-                    [](const FoundEffect& f) { return !f.fitted.empty(); });
-  return (fitted == 1 ? torque.removed_percent : found.removed_percent) <= 0;
+// Whether held-out data have no less of a gap with it, and would have.
+bool LeavesNoLess(const FoundEffect& found, const GapFigures& torque) {
+  return !std::isnan(torque.removed_percent) && !found.fitted.empty() &&
+         found.gain.IsNone();
 }
 
 // At most as likely as not.
@@ -65,13 +60,14 @@ bool GiveUpWorst(const GapFigures& torque, bool since_reference,
          (since_reference && GiveUpLeast(of(true), findings));
 }
 
-// An effect that removes nothing of the held-out gap, or makes it larger, is
-// not seen there: it may be what chance gave in the fitted data. Its
-// probability is at most indifference (Limits().untold).
+// An effect that removes nothing of the held-out gap, or makes it larger, where
+// it says that it would remove some, is not seen there: it may be what chance
+// gave in the fitted data. Its probability is at most indifference
+// (Limits().untold).
 void LowerWhatDoesNotHelp(const GapFigures& torque,
                           std::vector<FoundEffect>* effects) {
   for (FoundEffect& found : *effects) {
-    if (LeavesNoLess(found, torque, *effects)) Lower(&found);
+    if (LeavesNoLess(found, torque)) Lower(&found);
   }
 }
 
@@ -81,8 +77,7 @@ void LowerWhatDoesNotHelp(const GapFigures& torque,
 bool GiveUpWhatDoesNotHelp(const GapFigures& torque, GapFindings* findings) {
   if (!(torque.ci95[1] < 100 * Limits().explains)) return false;
   const auto does_not_help = [&](const FoundEffect& found) {
-    return !found.of_another_day &&
-           LeavesNoLess(found, torque, findings->effects);
+    return !found.of_another_day && LeavesNoLess(found, torque);
   };
   if (!GiveUpLeast(does_not_help, findings)) return false;
   Lower(&findings->unnamed.front());

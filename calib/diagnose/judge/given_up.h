@@ -25,9 +25,9 @@ namespace armcal {
 bool GiveUpWorst(const GapFigures& torque, bool since_reference,
                  GapFindings* findings);
 
-// What leaves no less of held-out data, where a refit leaves more than the
-// noise of them, is not seen there: it is at most as likely as not. (Where it
-// leaves the noise, they cannot tell.)
+// What leaves no less of held-out data, though it would (EffectGain::IsNone),
+// where a refit leaves more than the noise of them, is not seen there: it is at
+// most as likely as not. (Where a refit leaves the noise, they cannot tell.)
 void LowerWhatDoesNotHelp(const GapFigures& torque,
                           std::vector<FoundEffect>* effects);
 

@@ -62,8 +62,9 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
 
 }  // namespace
 
-HeldOut::HeldOut(const GapFit& fit)
+HeldOut::HeldOut(const GapFit& fit, std::uint64_t seed)
     : fit_(fit),
+      seed_(seed),
       other_logs_(false),
       every_fold_(fit.regression().DataOf(LogPart::AnyFold())),
       rows_(every_fold_.get()) {
@@ -76,8 +77,9 @@ HeldOut::HeldOut(const GapFit& fit)
   Follow();
 }
 
-HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs)
-    : fit_(fit), other_logs_(true) {
+HeldOut::HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs,
+                 std::uint64_t seed)
+    : fit_(fit), seed_(seed), other_logs_(true) {
   parts_.push_back({std::make_unique<Predictor>(fit),
                     fit.regression().DataOf(std::move(other_logs)), nullptr});
   Follow();
@@ -95,6 +97,7 @@ void HeldOut::Follow() {
   }
   tbb::parallel_for(size_t{0}, parts_.size(),
                     [&](size_t k) { parts_[k].predictor->Follow(around); });
+  after_.resize(0, 0);
 }
 
 // An arm that was touched in one log may have been in another: windows that
@@ -225,11 +228,18 @@ HeldOut::Residuals HeldOut::AllResiduals() const {
   all.refit = FromParts([&](const Part& part) {
     return Residual(part, {}, part.predictor->model_refit());
   });
-  all.after = FromParts([&](const Part& part) {
-    return Residual(part, part.predictor->refined().effects,
-                    part.predictor->model_after());
-  });
+  all.after = After();
   return all;
+}
+
+const MatrixXd& HeldOut::After() const {
+  if (after_.size() == 0) {
+    after_ = FromParts([&](const Part& part) {
+      return Residual(part, part.predictor->refined().effects,
+                      part.predictor->model_after());
+    });
+  }
+  return after_;
 }
 
 HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
@@ -256,13 +266,13 @@ const PredictedChi2& HeldOut::Chi2Of(const Part& part) {
 }
 
 // The model is fitted with the others alone, so that it may do what it can.
-double HeldOut::GainOf(size_t k, double after) const {
+EffectGain HeldOut::GainOf(size_t k) const {
   const MatrixXd left = FromParts([&](const Part& part) {
     const std::vector<GapCandidate> others =
         AllBut(part.predictor->refined().effects, k);
     return Residual(part, others, part.predictor->ModelGiven(others));
   });
-  return MeanSquare(Deviations(left).cwiseAbs2()) - after;
+  return GainBetween(Deviations(left), Deviations(After()), seed_);
 }
 
 // Chi squared that the effect should change and does, with what models lack as

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/judge/confirmation.h"
+#include "calib/diagnose/judge/effect_gain.h"
 #include "calib/diagnose/judge/predictor.h"
 #include "calib/diagnose/judge/removed_share.h"
 #include "calib/diagnose/select/fit.h"
@@ -17,10 +19,11 @@ class HeldOut {
  public:
   // The fit's own logs, each fold (LogPart) predicted by a fit of its effects
   // to the others.
-  explicit HeldOut(const GapFit& fit);
+  explicit HeldOut(const GapFit& fit, std::uint64_t seed = 1);
   // Other logs: what happened once in those that were fitted did not happen
   // here.
-  HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs);
+  HeldOut(const GapFit& fit, std::vector<GapSegment> other_logs,
+          std::uint64_t seed = 1);
 
   // Takes over the fit's effects again, which are others than before.
   void Follow();
@@ -41,9 +44,8 @@ class HeldOut {
   };
   Residuals AllResiduals() const;
   HeldOutSquares SquaresOf(const Residuals& residuals) const;
-  // By how much the k-th effect given the others lowers the mean square, that
-  // of all being `after`.
-  double GainOf(size_t k, double after) const;
+  // By how much the k-th effect given the others lowers the mean square.
+  EffectGain GainOf(size_t k) const;
   // Whether these data are what the k-th effect says, given the others, part by
   // part. `alike`: it, and what may stand in its place.
   std::vector<Confirmation> ConfirmationsOf(
@@ -73,14 +75,18 @@ class HeldOut {
   Eigen::MatrixXd FromParts(const OfPart& of_part) const;
   static JointRows Whitened(const Part& part, const Eigen::MatrixXd& residual);
   static const PredictedChi2& Chi2Of(const Part& part);
+  // Residuals::after.
+  const Eigen::MatrixXd& After() const;
   // Over their standard deviations; NaN where a joint stands.
   Eigen::MatrixXd Deviations(const Eigen::MatrixXd& residual) const;
 
   const GapFit& fit_;
+  std::uint64_t seed_;  // of the bootstrap
   bool other_logs_;
   std::vector<Part> parts_;
   std::unique_ptr<GapData> every_fold_;
-  const GapData* rows_;  // whose rows are what any part has
+  const GapData* rows_;            // whose rows are what any part has
+  mutable Eigen::MatrixXd after_;  // what After() found; empty: not yet
 };
 
 }  // namespace armcal

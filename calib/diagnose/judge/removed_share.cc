@@ -13,27 +13,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-struct TimeSeries {
-  VectorXd sum;    // over joints
-  VectorXd count;  // of joints that moved
-};
-
-// Sums over joints at each time, with how many of them moved: a mean over
-// joints and samples is then the ratio of two sums over time, which blocks of
-// the bootstrap may take apart.
-TimeSeries SumJoints(const MatrixXd& squares) {
-  TimeSeries series{VectorXd::Zero(squares.rows()),
-                    VectorXd::Zero(squares.rows())};
-  for (int j = 0; j < squares.cols(); ++j) {
-    for (int k = 0; k < squares.rows(); ++k) {
-      if (std::isnan(squares(k, j))) continue;
-      series.sum[k] += squares(k, j);
-      series.count[k] += 1;
-    }
-  }
-  return series;
-}
-
 // 100 (from - after) / (from - floor): of what is beyond the noise, how much is
 // removed. NaN where there is no more than `least` beyond it, since a ratio of
 // two noises says nothing.
@@ -45,7 +24,7 @@ double Removed(double from, double after, double floor, double least = 0) {
 VectorXd RmsOfJoints(const MatrixXd& squares) {
   VectorXd rms(squares.cols());
   for (int j = 0; j < squares.cols(); ++j) {
-    const TimeSeries one = SumJoints(squares.col(j));
+    const SumsOverJoints one = SumJoints(squares.col(j));
     rms[j] = one.count.sum() > 0 ? std::sqrt(one.sum.sum() / one.count.sum())
                                  : std::numeric_limits<double>::quiet_NaN();
   }
@@ -65,9 +44,9 @@ double BelowWhatIsLeft(double floor, double left) {
 // so that the interval holds how well the noise is known. Where that floor is
 // what is left, draws of it lie below, and the point estimate closes the
 // interval.
-void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
-                 double floor_stddev, std::uint64_t seed, double removed,
-                 double* ci95) {
+void SetInterval(const SumsOverJoints& from, const SumsOverJoints& after,
+                 double floor, double floor_stddev, std::uint64_t seed,
+                 double removed, double* ci95) {
   const int size = static_cast<int>(from.sum.size());
   std::vector<double> gain(size);
   for (int k = 0; k < size; ++k) gain[k] = from.sum[k] - after.sum[k];
@@ -94,8 +73,21 @@ void SetInterval(const TimeSeries& from, const TimeSeries& after, double floor,
 
 }  // namespace
 
+SumsOverJoints SumJoints(const MatrixXd& squares) {
+  SumsOverJoints series{VectorXd::Zero(squares.rows()),
+                        VectorXd::Zero(squares.rows())};
+  for (int j = 0; j < squares.cols(); ++j) {
+    for (int k = 0; k < squares.rows(); ++k) {
+      if (std::isnan(squares(k, j))) continue;
+      series.sum[k] += squares(k, j);
+      series.count[k] += 1;
+    }
+  }
+  return series;
+}
+
 double MeanSquare(const MatrixXd& squares) {
-  const TimeSeries series = SumJoints(squares);
+  const SumsOverJoints series = SumJoints(squares);
   const double count = series.count.sum();
   return count > 0 ? series.sum.sum() / count : 1;
 }
@@ -108,9 +100,9 @@ double MeanSquare(const MatrixXd& squares) {
 GapFigures RemovedShareFigures(const HeldOutSquares& squares,
                                double floor_stddev, std::uint64_t seed) {
   GapFigures figures;
-  const TimeSeries nominal = SumJoints(squares.nominal);
-  const TimeSeries refit = SumJoints(squares.refit);
-  const TimeSeries after = SumJoints(squares.after);
+  const SumsOverJoints nominal = SumJoints(squares.nominal);
+  const SumsOverJoints refit = SumJoints(squares.refit);
+  const SumsOverJoints after = SumJoints(squares.after);
   const double count = refit.count.sum();
   if (!(count > 0)) return figures;
   figures.nominal = nominal.sum.sum() / count;

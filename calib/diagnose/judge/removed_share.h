@@ -39,6 +39,15 @@ struct GapFigures {
 // Of all that are no NaN; 1 where there are none.
 double MeanSquare(const Eigen::MatrixXd& squares);
 
+// Sums over joints at each time, with how many of them moved: a mean over
+// joints and samples is then the ratio of two sums over time, which blocks of
+// the bootstrap may take apart.
+struct SumsOverJoints {
+  Eigen::VectorXd sum;
+  Eigen::VectorXd count;  // of joints that moved
+};
+SumsOverJoints SumJoints(const Eigen::MatrixXd& squares);
+
 // `floor_stddev`: how well the floor is known, relative; intervals hold it.
 GapFigures RemovedShareFigures(const HeldOutSquares& squares,
                                double floor_stddev, std::uint64_t seed);

@@ -1,10 +1,40 @@
 #include "calib/diagnose/judge/shown.h"
 
+#include <Eigen/Eigenvalues>
+#include <boost/math/distributions/chi_squared.hpp>
+
 #include "calib/diagnose/data/estimate_deviations.h"
 
 namespace armcal {
 
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// W = p' C^+ p is chi squared with the rank of C as its degrees of freedom
+// where p is 0 (Wald 1943). C is looked at in units of its deviations.
+bool AreSignificant(const VectorXd& p, const MatrixXd& covariance) {
+  constexpr double kLeast = 1e-9;  // of the largest eigenvalue
+  constexpr double kLevel = .05;
+  if (p.size() == 0) return true;
+  const VectorXd unit =
+      covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+      unit.asDiagonal() * covariance * unit.asDiagonal());
+  const VectorXd along =
+      eigen.eigenvectors().transpose() * unit.cwiseProduct(p);
+  double W = 0;
+  int rank = 0;
+  for (Eigen::Index k = 0; k < p.size(); ++k) {
+    if (eigen.eigenvalues()[k] <= kLeast * eigen.eigenvalues()[p.size() - 1]) {
+      continue;
+    }
+    W += along[k] * along[k] / eigen.eigenvalues()[k];
+    ++rank;
+  }
+  if (rank == 0) return true;  // known exactly
+  const boost::math::chi_squared chi_squared(rank);
+  return boost::math::cdf(boost::math::complement(chi_squared, W)) < kLevel;
+}
 
 // Laws that a reference shows by itself, with the values and the deviations
 // that all logs together give them. Their parameters are the last columns of
@@ -21,6 +51,7 @@ std::vector<ShownEffect> ListShown(const GapFit& fit,
   for (const KnownEffect& known : baseline.KnownAt(x)) {
     const int place = static_cast<int>(shown.size());
     MatrixXd covariance = MatrixXd::Zero(known.p.size(), known.p.size());
+    std::vector<int> fitted;  // of p
     for (Eigen::Index a = 0; a < count; ++a) {
       for (Eigen::Index b = 0; b < count; ++b) {
         const auto &u = parameters[a], &v = parameters[b];
@@ -28,12 +59,16 @@ std::vector<ShownEffect> ListShown(const GapFit& fit,
         covariance(u.index, v.index) = all(a, b) * u.spread * v.spread;
       }
     }
+    for (const auto& one : parameters) {
+      if (one.effect == place) fitted.push_back(one.index);
+    }
     const EffectSite site = {&baseline.robot(), known.joint,
                              &baseline.known().scale()};
     shown.push_back(
         {known.effect, known.joint, EstimatesOf(*known.effect, site, known.p),
          EstimateDeviations(*known.effect, site, known.p, covariance,
-                            baseline.discrepancy().torque_constants_stddev())});
+                            baseline.discrepancy().torque_constants_stddev()),
+         AreSignificant(known.p(fitted), covariance(fitted, fitted))});
   }
   return shown;
 }

@@ -13,7 +13,16 @@ struct ShownEffect {
   int joint = -1;  // from 0; -1: the whole robot
   std::vector<EffectEstimate> estimates;
   std::vector<double> stddev;  // of these, their shapes being given
+  // Whether its sizes, all together, differ from 0 at the 5 % level (Wald's
+  // test). A law that helps to predict the reference may be small, or share its
+  // torque with others in ways that no log tells.
+  bool is_significant = true;
 };
+
+// Whether estimates differ from 0 at the 5 % level: Wald's test, in the
+// directions in which they have a variance.
+bool AreSignificant(const Eigen::VectorXd& p,
+                    const Eigen::MatrixXd& covariance);
 
 // Those that the fit's baseline knows, at its values x.
 std::vector<ShownEffect> ListShown(const GapFit& fit, const Eigen::VectorXd& x);

@@ -32,10 +32,39 @@ std::string WhyTransmitted(const SimulatedRobot& robot, int joint) {
   return "";
 }
 
-// tau = k d (1 + (d / 4 d0)^2) + c d', d0 the wind-up at the joint's torque
-// scale: a harmonic drive stiffens as it winds up, here by 6 %. With the
-// motor's own inertia it rings at sqrt(k (1/Im + 1/Il)): 225 rad/s for 50 N m,
-// 1 mrad, 1 kg m^2 each.
+// What a gear transmits as it winds up: straight lines with the slopes K1 < K2
+// < K3, of which the second begins at the torque T1 and the third at T2, as the
+// makers of strain wave gears measure and publish it (Harmonic Drive SE,
+// engineering data, "torsional stiffness"). Here K2 = 1.3 K1 and K3 = 1.5 K1,
+// T1 at 0.3 of the joint's torque scale and T2 at the scale itself.
+class WindUp {
+ public:
+  WindUp(double stiffness, double scale)
+      : K_{stiffness, 1.3 * stiffness, 1.5 * stiffness},
+        T_{0, .3 * scale, scale},
+        d_{0, T_[1] / K_[0], T_[1] / K_[0] + (T_[2] - T_[1]) / K_[1]} {}
+
+  double Torque(double d) const {
+    const int k = LineOf(d_, std::abs(d));
+    return std::copysign(T_[k] + K_[k] * (std::abs(d) - d_[k]), d);
+  }
+  double Deflection(double torque) const {
+    const int k = LineOf(T_, std::abs(torque));
+    return std::copysign(d_[k] + (std::abs(torque) - T_[k]) / K_[k], torque);
+  }
+  double stiffest() const { return K_[2]; }
+
+ private:
+  static int LineOf(const double* begins, double x) {
+    return x < begins[1] ? 0 : x < begins[2] ? 1 : 2;
+  }
+
+  double K_[3], T_[3], d_[3];
+};
+
+// tau = WindUp(d) + c d', whose first slope k winds up by `windup` at the
+// joint's torque scale. With the motor's own inertia it rings at
+// sqrt(k (1/Im + 1/Il)): 225 rad/s for 50 N m, 1 mrad, 1 kg m^2 each.
 HiddenEffect Elasticity() {
   return {"elasticity",
           true,
@@ -49,14 +78,15 @@ HiddenEffect Elasticity() {
             const double d0 = site.p[0] * site.radian();
             const double k = site.torque() / d0;
             const double c = 2 * site.p[1] * std::sqrt(k * I);
+            const WindUp gear(k, site.torque());
             site.robot->transmissions.push_back(
                 {site.index(),
                  {},
                  [=](double d, double rate, const double*, double*) {
-                   const double u = d / (4 * d0);
-                   return k * d * (1 + u * u) + c * rate;
+                   return gear.Torque(d) + c * rate;
                  },
-                 [=](double load) { return load / k; }});
+                 [=](double load) { return gear.Deflection(load); },
+                 gear.stiffest()});
             const std::string unit =
                 site.effort_unit() + "/" + site.position_unit();
             return {{"stiffness", unit, k},

@@ -44,6 +44,22 @@ TEST(Reports, ListContacts) {
   EXPECT_TRUE(effect["contacts"][1]["force"].is_null());
 }
 
+// What helps to predict the reference, and is within its deviation.
+TEST(FullReport, GivesValuesOfSignificantLawsAlone) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.shown = {
+      {FindEffect("stribeck"), 1, {{"size", "N m", 2}}, {.1}, true},
+      {FindEffect("torque_ripple"), 0, {{"size", "N m", 2}}, {3}, false}};
+  EXPECT_THAT(FullReport(diagnosis, false),
+              HasSubstr("\nthe reference itself shows\n"
+                        "  stribeck on elbow: size 2 +- 0.1 N m\n"
+                        "  laws whose sizes it does not tell: torque ripple on "
+                        "shoulder\n"));
+  const json shown = ToJson(diagnosis)["reference_shows"];
+  EXPECT_EQ(shown[0]["significant"], true);
+  EXPECT_EQ(shown[1]["significant"], false);
+}
+
 TEST(FullReport, WhatNothingTellsOfIsNotSeen) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects[0].estimates = {

@@ -33,6 +33,10 @@ TEST(BriefReport, SaysHowSureItIs) {
   EXPECT_THAT(BriefReport(diagnosis), HasSubstr("probably lacks stribeck"));
   diagnosis.torque.removed_percent = -47;
   EXPECT_EQ(BriefReport(diagnosis),
+            "The model probably lacks stribeck on elbow, too small a part of "
+            "the gap for held-out data to show.");
+  diagnosis.effects[0].gain = {-1, 1, {-2, .5}};
+  EXPECT_EQ(BriefReport(diagnosis),
             "The model probably lacks stribeck on elbow, which does not shrink "
             "the gap on held-out data.");
   diagnosis.effects[0].probability = .5;

@@ -100,6 +100,39 @@ TEST(BagSource, ReadsStatesOfControllers) {
   read({{"/dynamic_joint_states", std::nullopt}});
 }
 
+// Its stamps lie between those of the joints; tests/write_bags.py has the law.
+TEST(BagSource, ReadsAForceTorqueSensorThatIsNamed) {
+  const std::string path = kFolder + "wrench.mcap";
+  const LogTopic sensor{"/ft", std::nullopt, true};
+  LogReaderOptions options = Options({sensor});
+  options.want_wrench = true;
+  const Log log = ReadWholeLog(path, options);
+  ASSERT_TRUE(log.size() == 20 && Begins(log));
+  ASSERT_EQ(log.wrench.cols(), 6);
+  for (int k = 0; k < log.size(); ++k) {
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(log.wrench(k, c), 10 * c + k, 1e-9);
+  }
+  options.topics = {{"/joint_states", std::nullopt}, sensor};
+  EXPECT_EQ(ReadWholeLog(path, options).wrench, log.wrench);
+  // Of some robots a wrench is an estimate, in other axes.
+  options.topics = {};
+  EXPECT_EQ(ReadWholeLog(path, options).wrench.size(), 0);
+}
+
+TEST(BagSource, SaysWhichForceTorqueSensorIsWrong) {
+  const LogTopic sensor{"/ft", std::nullopt, true},
+      other{"/external", std::nullopt, true};
+  EXPECT_EQ(RefusalOf("wrench.mcap", {sensor, other}),
+            "FILE: the force-torque sensor is in /ft and in /external: choose "
+            "one by `topics`=wrench:/ft");
+  EXPECT_EQ(RefusalOf("wrench.mcap", {{"/ft", std::nullopt}}),
+            "FILE: topic /ft: found 'geometry_msgs/msg/WrenchStamped': is a "
+            "force-torque sensor's: expected `topics`=wrench:/ft");
+  EXPECT_EQ(RefusalOf("wrench.mcap", {{"/joint_states", std::nullopt, true}}),
+            "FILE: topic /joint_states: found 'sensor_msgs/msg/JointState': "
+            "expected geometry_msgs/msg/WrenchStamped");
+}
+
 TEST(BagSource, LeavesNothingBesideABag) {
   const std::string path =
       WriteFile(Bytes(kFolder + "log.db3"), "50%3f #?immutable=0.db3");
@@ -146,7 +179,8 @@ TEST(BagSource, SaysWhatIsWrong) {
             "'std_msgs/msg/Float32MultiArray': expected "
             "sensor_msgs/msg/JointState, std_msgs/msg/Float64MultiArray, "
             "control_msgs/msg/DynamicJointState or "
-            "JointTrajectoryControllerState");
+            "JointTrajectoryControllerState, or "
+            "geometry_msgs/msg/WrenchStamped");
   EXPECT_EQ(RefusalOf("json.mcap"),
             "FILE: topic /joint_states: found 'json': expected messages "
             "encoded as cdr, as in ROS 2");

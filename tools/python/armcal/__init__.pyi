@@ -101,7 +101,7 @@ def calibrate(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint, slower where that rings
@@ -213,7 +213,7 @@ def verify(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: none (simulate:
@@ -318,7 +318,7 @@ def diagnose(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
     modules              Union[str, Sequence[str]]: the laws found as sources
@@ -542,7 +542,7 @@ def excite(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: none (simulate:
@@ -591,7 +591,7 @@ def inspect(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: none (simulate:
@@ -655,7 +655,7 @@ def reduce(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     geometry             str: known; lengths (between the joint axes: those the
                          robot file declares unknown, or all that are not zero,
                          are estimated), all_lengths; offsets (joint zeros are
@@ -758,7 +758,7 @@ def compare(
                          of armcal simulate
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
-                         /joint_states,effort:/torques
+                         /joint_states,effort:/torques,wrench:/ft
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
     out                  Path: for the result files; default: none (simulate:

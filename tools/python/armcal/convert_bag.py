@@ -10,8 +10,9 @@ from armcal._armcal import InputError
 
 # What armcal's reader of bags takes, and where in a message of ROS 1 the
 # header's stamp is: after 4 bytes of `seq`, s and ns of 4 bytes each.
-_STAMPED = ("sensor_msgs/msg/JointState",
-            "control_msgs/msg/JointTrajectoryControllerState")
+_JOINTS = ("sensor_msgs/msg/JointState",
+           "control_msgs/msg/JointTrajectoryControllerState")
+_STAMPED = _JOINTS + ("geometry_msgs/msg/WrenchStamped",)
 _TYPES = _STAMPED + ("std_msgs/msg/Float64MultiArray",)
 _STAMP = slice(4, 12)
 
@@ -44,7 +45,8 @@ def _copy(reader: Any, used: Any, writer: Any) -> Dict[str, int]:
         if key not in made:
             made[key] = writer.add_connection(*key, typestore=types)
     counts = {topic: 0 for topic, _ in made}
-    stamped = {topic: kind not in _STAMPED for topic, kind in made}
+    # A sensor's that are none are refused where it is asked for.
+    stamped = {topic: kind not in _JOINTS for topic, kind in made}
     for connection, received, data in reader.messages(connections=used):
         key = (connection.topic, connection.msgtype)
         writer.write(made[key], received, types.ros1_to_cdr(data, key[1]))
@@ -70,7 +72,7 @@ def ros1_to_ros2(path: pathlib.Path, folder: pathlib.Path) -> List[str]:
         with AnyReader([path]) as reader:
             used = [c for c in reader.connections
                     if c.msgtype in _TYPES and c.msgcount > 0]
-            if not any(c.msgtype in _STAMPED for c in used):
+            if not any(c.msgtype in _JOINTS for c in used):
                 raise InputError(
                     "has no messages of sensor_msgs/JointState or control_msgs/"
                     "JointTrajectoryControllerState; it has " +

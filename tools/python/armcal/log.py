@@ -15,8 +15,9 @@ Array = NDArray[np.float64]
 # Signals of a log, with their names in an .npz.
 _SIGNALS = {
     "q": "q", "qd": "qd", "qdd": "qdd", "tau": "tau", "current": "i",
-    "voltage": "u", "qref": "qref", "temperature": "temp",
+    "voltage": "u", "qref": "qref", "temperature": "temp", "wrench": "wrench",
 }
+_AXES_OF_WRENCH = 6
 
 
 class Log:
@@ -30,6 +31,8 @@ class Log:
     voltage      (N, n) V, of the motors, instead of both
     qref         (N, n) rad or m, what the controller was to follow
     temperature  (N, n) deg C
+    wrench       (N, 6) N and N m, force and torque of a force-torque sensor on
+                 the last link, in the sensor's axes
     simulated    says that tau is exact, as in logs of armcal simulate
     name         what reports and messages call it
 
@@ -45,12 +48,13 @@ class Log:
     voltage: Optional[Array]
     qref: Optional[Array]
     temperature: Optional[Array]
+    wrench: Optional[Array]
     simulated: bool
     name: str
 
     def __init__(self, *, t: Any, q: Any, tau: Any = None, qd: Any = None,
                  qdd: Any = None, current: Any = None, voltage: Any = None,
-                 qref: Any = None, temperature: Any = None,
+                 qref: Any = None, temperature: Any = None, wrench: Any = None,
                  simulated: bool = False, name: str = "log") -> None:
         if not name or set(name) & set("/,\0"):
             raise ValueError(f"name: found {name!r}, expected a text without "
@@ -64,17 +68,24 @@ class Log:
                  "voltage": voltage, "qref": qref, "temperature": temperature}
         joints: Union[int, str] = "n"
         for signal, values in given.items():
-            array = None if values is None else np.array(values, dtype=float)
-            if array is not None:
-                expected = (len(self.t), joints)
-                if array.ndim != 2 or array.shape[0] != len(self.t) or (
-                        joints != "n" and array.shape[1] != joints):
-                    raise ValueError(f"{signal}: found shape {array.shape}, "
-                                     f"expected ({expected[0]}, {joints})")
-                joints = array.shape[1]
+            array = self._columns(signal, values, joints)
+            joints = joints if array is None else array.shape[1]
             setattr(self, signal, array)
+        self.wrench = self._columns("wrench", wrench, _AXES_OF_WRENCH)
         if self.q is None:
             raise ValueError("q: found None, expected shape (N, n)")
+
+    def _columns(self, signal: str, values: Any,
+                 columns: Union[int, str]) -> Optional[Array]:
+        """A copy of `values`, (N, columns); any number of them where it says n."""
+        if values is None:
+            return None
+        array = np.array(values, dtype=float)
+        if array.ndim != 2 or array.shape[0] != len(self.t) or (
+                columns not in ("n", array.shape[1])):
+            raise ValueError(f"{signal}: found shape {array.shape}, "
+                             f"expected ({len(self.t)}, {columns})")
+        return array
 
     def __len__(self) -> int:
         return len(self.t)
@@ -101,18 +112,21 @@ class Log:
 
 
 def read_log(path: Union[str, "os.PathLike[str]"], robot: _armcal.Robot, *,
-             torque: bool = True, **options: Any) -> Log:
+             torque: bool = True, wrench: bool = False,
+             **options: Any) -> Log:
     """Reads a log of any format that armcal knows, at most 2^20 rows.
 
     Times are since its first row; currents and voltages become torques.
 
     torque   False: torques may be missing, and are not read
-    options  torque_kind, torque_constants, gear_ratios as of calibrate
+    wrench   True: a force-torque sensor is read, if the log has one
+    options  torque_kind, torque_constants, gear_ratios, topics as of calibrate
     """
     arrays = _armcal.read_log(os.fspath(path), robot, option_texts(options),
-                              torque)
+                              torque, wrench)
     signals = {signal: getattr(arrays, signal)
-               for signal in ("qd", "qdd", "tau", "qref", "temperature")}
+               for signal in ("qd", "qdd", "tau", "qref", "temperature",
+                              "wrench")}
     return Log(t=arrays.t, q=arrays.q, simulated=arrays.simulated,
                name=os.path.basename(path),
                **{signal: values for signal, values in signals.items()

@@ -74,7 +74,7 @@ class IsClaimedTest : public testing::Test {
   bool Claimed(double probability, double gain, double expected = 500,
                double explained = 500) {
     found_.probability = probability;
-    found_.evidence.gain = gain;
+    found_.evidence.gain.value = gain;
     found_.evidence.confirmation = {expected, explained};
     return IsClaimed(found_);
   }

@@ -9,7 +9,6 @@
 namespace armcal::given_up_test {
 
 using testing::ElementsAre;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 GapFigures Shrinking(double low, double high) {
@@ -18,6 +17,9 @@ GapFigures Shrinking(double low, double high) {
   torque.ci95[1] = high;
   return torque;
 }
+
+// Known exactly, of what says that it would remove 1.
+EffectGain Gain(double value) { return {value, 1, {value, value}}; }
 
 TEST(GiveUpWorst, TakesWhatRemovesLeastOfWhatIsFitted) {
   GapFindings findings;
@@ -78,12 +80,13 @@ TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
   GapFindings findings;
   findings.effects = {Found("spring", 1, 9), Found("stribeck", 1, 8),
                       Found("cable", 1, 7)};
-  const std::vector<double> removed = {60, -3, 0};
+  const std::vector<EffectGain> gains = {Gain(2), Gain(-.1), Gain(0)};
   for (int k = 0; k < 3; ++k) {
     FoundEffect& found = findings.effects[k];
     found.probability = .9;
     found.fitted = {k};
-    found.removed_percent = removed[k];
+    found.gain = gains[k];
+    found.removed_percent = 30 * gains[k].value;
   }
   findings.effects[1].evidence.confirmation = {50, 40};  // chi^2 has seen it
   GapFigures torque = Shrinking(-5, 40);
@@ -92,6 +95,11 @@ TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
   GapFigures wide = Shrinking(-90, 80);  // data that tell little
   wide.removed_percent = torque.removed_percent = 20;
   EXPECT_FALSE(GiveUpWhatDoesNotHelp(wide, &findings));
+  findings.effects[1].gain.ci95[1] = 5;  // among what swings much more
+  findings.effects[2].gain.ci95[1] = 5;
+  EXPECT_FALSE(GiveUpWhatDoesNotHelp(torque, &findings));
+  findings.effects[1].gain = gains[1];
+  findings.effects[2].gain = gains[2];
   EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
   ASSERT_THAT(findings.unnamed, SizeIs(1));
   EXPECT_EQ(findings.unnamed[0].effect->name, "stribeck");
@@ -103,25 +111,12 @@ TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
   EXPECT_EQ(findings.effects[0].probability, .9);
 }
 
-TEST(GiveUpWhatDoesNotHelp, IsOfAllThatIsRemovedWhereItIsTheOnlyOne) {
-  GapFindings findings;
-  findings.effects = {Found("link_inertia", 3, 40)};
-  findings.effects[0].probability = .7;
-  findings.effects[0].fitted = {0};
-  findings.effects[0].removed_percent = 20;
-  GapFigures torque = Shrinking(-40, 6);
-  torque.removed_percent = -17;
-  EXPECT_TRUE(GiveUpWhatDoesNotHelp(torque, &findings));
-  EXPECT_THAT(findings.effects, IsEmpty());
-  EXPECT_EQ(findings.unnamed[0].probability, .5);
-  EXPECT_FALSE(findings.without_name);
-}
-
 // Joints say together that friction is another day's; each may say little.
 TEST(GiveUpWhatDoesNotHelp, NotFrictionOfAnotherDay) {
   GapFindings findings;
   findings.effects = {Found("coulomb_friction", 1, 9)};
   findings.effects[0].fitted = {0};
+  findings.effects[0].gain = Gain(-1);
   findings.effects[0].of_another_day = true;
   GapFigures torque = Shrinking(-3, 1);
   torque.removed_percent = -1;
@@ -134,9 +129,9 @@ TEST(LowerWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
                                       Found("stribeck", 1, 8)};
   for (FoundEffect& found : effects) found.probability = .9;
   effects[0].fitted = {0};
-  effects[0].removed_percent = 60;
+  effects[0].gain = Gain(2);
   effects[1].fitted = {1};
-  effects[1].removed_percent = -3;
+  effects[1].gain = Gain(-.1);
   GapFigures torque;
   torque.removed_percent = NAN;
   LowerWhatDoesNotHelp(torque, &effects);

@@ -113,6 +113,13 @@ TEST_F(HeldOutTest, AFoldChoosesWhatCanBe) {
   for (const Confirmation& of_fold : held_out.ConfirmationsOf(0, {payload})) {
     EXPECT_GT(of_fold.explained, 0);
   }
+  // The gain of an only effect is all that is removed.
+  const GapFigures figures =
+      RemovedShareFigures(held_out.SquaresOf(held_out.AllResiduals()), 0, 1);
+  const EffectGain gain = held_out.GainOf(0);
+  EXPECT_NEAR(gain.value, figures.refit - figures.after, 1e-6 * figures.refit);
+  EXPECT_NEAR(gain.value, gain.expected, .1 * gain.expected);
+  EXPECT_GT(gain.ci95[0], 0);
 }
 
 }  // namespace armcal::held_out_test

@@ -26,10 +26,19 @@ double CycleWork(const HiddenPlant& plant, double A, double omega) {
 TEST(HiddenTransmissions, ElasticityByHand) {
   HiddenPlant plant("elasticity", 1, {.002, .05});
   EXPECT_EQ(plant.robot.transmissions[0].joint, 1);
-  // 10 N m wind it up by 2 mrad, less what it stiffens: 1/16.
+  // 10 N m would wind its first slope up by 2 mrad: 5000 N m/rad to 3 N m,
+  // 6500 to 10 N m, 7500 beyond.
   EXPECT_NEAR(plant.Value("stiffness"), 5000, 1e-9);
-  EXPECT_NEAR(plant.Transmitted(.002, 0), 10 * (1 + 1. / 16), 1e-12);
-  EXPECT_NEAR(plant.Transmitted(-.0001, 0), -.5 * (1 + 1. / 6400), 1e-12);
+  EXPECT_NEAR(plant.Transmitted(-.0001, 0), -.5, 1e-12);
+  EXPECT_NEAR(plant.Transmitted(.0006, 0), 3, 1e-12);
+  EXPECT_NEAR(plant.Transmitted(.0016, 0), 3 + 6500 * .001, 1e-12);
+  const double end = .0006 + 7 / 6500.;
+  EXPECT_NEAR(plant.Transmitted(-end - .001, 0), -10 - 7.5, 1e-9);
+  const Transmission& gear = plant.robot.transmissions[0];
+  for (const double load : {-20., -4., 0., 2., 9., 30.}) {
+    EXPECT_NEAR(plant.Transmitted(gear.initial_deflection(load), 0), load,
+                1e-12);
+  }
   // Damping 2 zeta sqrt(k I); the motor is given 0.3 of the joint's 2 kg m^2.
   EXPECT_NEAR(plant.Value("armature"), .6, 1e-12);
   EXPECT_NEAR(plant.Transmitted(0, .1), .1 * .1 * std::sqrt(5000 * .6), 1e-12);
