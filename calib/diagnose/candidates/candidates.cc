@@ -127,7 +127,11 @@ void ListShapes(const Effect& effect, const EffectSite& site,
     candidate.tried = tried;
     candidate.prior_penalty = PriorPenalty(effect, since_reference);
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
-      if (effect.parameters[k].search != Search::kLinear) continue;
+      if (effect.parameters[k].search != Search::kLinear) {
+        const double usual = effect.parameters[k].size(site);
+        if (candidate.p[k] != usual) candidate.is_usual = false;
+        continue;
+      }
       candidate.linear.push_back(static_cast<int>(k));
       candidate.size.conservativeResize(candidate.linear.size());
       candidate.size[candidate.size.size() - 1] =
@@ -220,17 +224,21 @@ std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate) {
   return few;
 }
 
-std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates) {
-  std::vector<int> first;
+std::vector<int> UsualShapes(const std::vector<GapCandidate>& candidates) {
+  std::vector<int> usual;
   for (size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].effect->larger_sizes.empty()) continue;
-    if (std::none_of(first.begin(), first.end(), [&](int other) {
-          return SamePlace(candidates[other], candidates[i]);
-        })) {
-      first.push_back(static_cast<int>(i));
+    const auto same = std::find_if(usual.begin(), usual.end(), [&](int other) {
+      return SamePlace(candidates[other], candidates[i]);
+    });
+    const int index = static_cast<int>(i);
+    if (same == usual.end()) {
+      usual.push_back(index);
+    } else if (candidates[i].is_usual && !candidates[*same].is_usual) {
+      *same = index;
     }
   }
-  return first;
+  return usual;
 }
 
 bool HasShape(const GapCandidate& candidate) {

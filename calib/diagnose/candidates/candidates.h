@@ -28,6 +28,7 @@ struct GapCandidate {
   // were tried, on the scale of chi squared.
   double prior_penalty = 0;
   int tried = 1;           // shapes of the same effect at the same place
+  bool is_usual = true;    // its shape is the usual one of its effect
   bool is_larger = false;  // than the first size of its effect
   bool is_fitted = false;  // its shape and size are those of a fit
   // Of its coefficient, where its column is the torque at its size and not at
@@ -64,8 +65,9 @@ std::vector<GapCandidate> LargerOnes(const GapCandidate& candidate);
 std::vector<GapCandidate> FewLargerOnes(const GapCandidate& candidate);
 // Whether these few are not all.
 bool HasMoreLargerOnes(const GapCandidate& candidate);
-// One candidate (index) of each effect that has larger sizes, at each place.
-std::vector<int> FirstShapes(const std::vector<GapCandidate>& candidates);
+// One candidate (index) of each effect that has larger sizes, at each place: of
+// its usual shape, else its first.
+std::vector<int> UsualShapes(const std::vector<GapCandidate>& candidates);
 
 // Whether its torque is not linear in all of its parameters.
 bool HasShape(const GapCandidate& candidate);

@@ -70,7 +70,7 @@ std::vector<GapCandidate> CandidatePool::AFewLargerOnes() const {
   const std::vector<bool> more = MoreThanNoise();
   const bool any = std::count(more.begin(), more.end(), true) > 0;
   std::vector<GapCandidate> larger;
-  for (const int c : FirstShapes(candidates_)) {
+  for (const int c : UsualShapes(candidates_)) {
     const GapCandidate& candidate = candidates_[c];
     const bool shows = candidate.joint < 0 ? any : more[candidate.joint];
     if (!shows) continue;

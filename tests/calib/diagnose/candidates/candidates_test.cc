@@ -4,6 +4,12 @@
 
 #include <cmath>
 
+#include "calib/diagnose/data/baseline.h"
+#include "calib/diagnose/data/rows.h"
+#include "model/effects/effects.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
+
 namespace armcal::candidates_test {
 
 using Eigen::Vector2d;
@@ -81,11 +87,40 @@ TEST(GapCandidates, AFewOfManyAreSpread) {
   EXPECT_EQ(few[0].tried, 3 * 21);
 }
 
-TEST(GapCandidates, FirstShapesAreOneOfEachPlace) {
+TEST(GapCandidates, UsualShapesAreOneOfEachPlace) {
   const Effect grows = MakeEffect({2}), linear = MakeEffect({});
-  EXPECT_THAT(FirstShapes({MakeCandidate(linear, 0), MakeCandidate(grows, 0),
+  EXPECT_THAT(UsualShapes({MakeCandidate(linear, 0), MakeCandidate(grows, 0),
                            MakeCandidate(grows, 0), MakeCandidate(grows, 1)}),
               ElementsAre(1, 3));
+  // The first of them that is of the usual shape, wherever that stands.
+  GapCandidate odd = MakeCandidate(grows, 0);
+  odd.is_usual = false;
+  EXPECT_THAT(UsualShapes({odd, odd, MakeCandidate(grows, 0)}), ElementsAre(2));
+  EXPECT_THAT(UsualShapes({odd, odd}), ElementsAre(0));
+}
+
+// A gear that rings for long, the first of the grid, would hide one that does
+// not from the few sizes that are tried everywhere.
+TEST(GapCandidates, OfAGearTheUsualIsOfMiddleDamping) {
+  const EffectArm arm("2R planar (vertical plane)", 20, .01);
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
+  const std::vector<GapSegment> segments = {
+      MakeSegment(arm.motion, arm.Recorded().nominal())};
+  const GapRows rows(segments, 6);
+  std::vector<std::string> others;
+  for (const Effect& effect : Effects()) {
+    if (effect.name != "elasticity") others.push_back(effect.name);
+  }
+  const std::vector<GapCandidate> candidates =
+      ListCandidates(baseline, rows, arm.scale,
+                     Eigen::MatrixXd::Zero(rows.num_thin(), 2), others, false);
+  const std::vector<int> usual = UsualShapes(candidates);
+  ASSERT_EQ(usual.size(), 2u);  // joints
+  for (const int c : usual) {
+    EXPECT_TRUE(candidates[c].is_usual);
+    EXPECT_EQ(candidates[c].p[1], .07) << "of .005, .02, .07 and .25";
+    EXPECT_EQ(candidates[c].p[2], .01) << "of .01 and .05";
+  }
 }
 
 // Events are taken out, and all candidates listed again.
