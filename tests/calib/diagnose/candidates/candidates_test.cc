@@ -106,7 +106,9 @@ TEST(GapCandidates, OfAGearTheUsualIsOfMiddleDamping) {
   const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
   const std::vector<GapSegment> segments = {
       MakeSegment(arm.motion, arm.Recorded().nominal())};
-  const GapRows rows(segments, 6);
+  GapRows rows(segments, 6);
+  rows.SetNoise(std::vector<Autoregression>(2),
+                Eigen::MatrixXd::Zero(rows.num_thin(), 2));
   std::vector<std::string> others;
   for (const Effect& effect : Effects()) {
     if (effect.name != "elasticity") others.push_back(effect.name);
