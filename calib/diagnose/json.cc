@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "calib/diagnose/next_steps.h"
 #include "calib/diagnose/report.h"
@@ -24,9 +23,6 @@ json PlacesJson(const std::vector<PlacedEffect>& places) {
 }
 
 json EvidenceJson(const EffectEvidence& evidence) {
-  const double expected = evidence.held_out
-                              ? evidence.gain.expected
-                              : std::numeric_limits<double>::quiet_NaN();
   return {
       {"odds", JsonNumber(evidence.odds)},
       {"odds_of_any", JsonNumber(evidence.odds_of_any)},
@@ -42,7 +38,7 @@ json EvidenceJson(const EffectEvidence& evidence) {
       {"gain", JsonNumber(evidence.gain.value)},
       {"gain_ci95",
        {JsonNumber(evidence.gain.ci95[0]), JsonNumber(evidence.gain.ci95[1])}},
-      {"gain_expected", JsonNumber(expected)},
+      {"gain_expected", JsonNumber(evidence.gain.expected)},
       {"expected", JsonNumber(evidence.confirmation.expected)},
       {"explained", JsonNumber(evidence.confirmation.explained)}};
 }

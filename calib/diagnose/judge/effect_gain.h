@@ -13,7 +13,7 @@ struct EffectGain {
   // The mean square D of what it changes there. Were the residual e with the
   // effect independent of the change d, `value` = E (e + d)^2 - E e^2 would be
   // D; where the effect is not there, and e that without it, -D.
-  double expected = 0;
+  double expected = NAN;
   double ci95[2] = {NAN, NAN};  // of `value`
 
   // Whether the data show no less of a gap with it, and would have shown one:
