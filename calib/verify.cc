@@ -1,5 +1,7 @@
 #include "calib/verify.h"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "calib/logs/drawn_torques.h"
@@ -8,6 +10,7 @@
 #include "calib/verify/verification_report.h"
 #include "model/robot_files/controller_reader.h"
 #include "model/signals/bandwidth.h"
+#include "model/text/input_text.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
 
@@ -103,8 +106,13 @@ void Verifier::VerifyOnLogs(const LogInput& input, VerifySummary* summary) {
   prepared.bandwidth_hz = BandwidthFor(logs);
   const PreparedLogs states = Prepare(logs, prepared);
   report_.verification = VerifyDynamics(report_.robot, dynamics_, &states);
+  report_.log_torques =
+      CompareLogTorques(file_, calibrated(), options_.progress, states);
   RolloutOptions rollouts;
   rollouts.progress = options_.progress;
+  rollouts.simbody_s = options_.budget_s == 0
+                           ? std::numeric_limits<double>::infinity()
+                           : options_.budget_s;
   report_.rollouts = CompareRollouts(file_, calibrated(), rollouts,
                                      prepared.bandwidth_hz, report_.seed, logs);
   if (!options_.draw_torques) return;
@@ -139,6 +147,11 @@ VerifySummary Verify(const Robot& robot, const LogInput& logs,
     throw OptionError(OptionName("controller") +
                       " follows the command of one log: " + OptionName("log") +
                       "=FILE");
+  }
+  if (!(options.budget_s >= 0) || !std::isfinite(options.budget_s)) {
+    throw OptionError(OptionName("budget") + ": found '" +
+                      NumberText(options.budget_s) +
+                      "', expected seconds, or 0 for all that there is");
   }
   return Verifier(robot, options).Run(logs);
 }

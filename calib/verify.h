@@ -29,6 +29,10 @@ struct VerifyOptions {
   // Path of the drives' law (docs/simulate.md): a loop follows the command of
   // the one log; empty: none does.
   std::string controller;
+  // How long Simbody may simulate stretches of the logs, s by the clock: those
+  // that it does not reach are simulated by our own dynamics. 0: it simulates
+  // all of them.
+  double budget_s = 60;
   std::uint64_t seed = 0;     // of random states and of intervals
   bool draw_torques = false;  // keeps `torques` of the summary
   Progress progress;
@@ -45,8 +49,8 @@ struct VerifySummary : Summary {
 
 // Checks a robot, or a calibration of it, against Simbody: torques, mass
 // matrix, gravity and energy on random states and on those of the logs (none:
-// random ones alone), and simulated over stretches of the logs. Throws
-// InputError and OptionError.
+// random ones alone), and simulated over stretches of the logs, by Simbody as
+// far as its time allows. Throws InputError and OptionError.
 VerifySummary Verify(const Robot& robot, const LogInput& logs,
                      const VerifyOptions& options);
 

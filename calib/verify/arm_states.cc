@@ -20,6 +20,26 @@ double FiniteOr(double value, double otherwise) {
 
 }  // namespace
 
+EvenSamples::EvenSamples(int count, const PreparedLogs& logs)
+    : count_(count), time_bases_(logs.time_bases()) {
+  double samples = 0;
+  for (const TimeBase& base : time_bases_) samples += base.samples;
+  step_ = std::max(1.0, samples / count);
+}
+
+// One is due whenever the samples passed have reached the next multiple of the
+// step; a row of a thinned trajectory counts as the samples it stands for.
+std::vector<int> EvenSamples::In(int log, const Trajectory& t) {
+  const double thinned = t.dt / time_bases_[log].dt;
+  std::vector<int> rows;
+  for (int k = t.core_begin; k < t.core_end; ++k, passed_ += thinned) {
+    if (passed_ < step_ * chosen_ || chosen_ >= count_) continue;
+    rows.push_back(k);
+    ++chosen_;
+  }
+  return rows;
+}
+
 // States are uniform within the file's limits; where it has none, a turn, 2
 // rad/s and 10 rad/s^2 (1 m, 0.5 m/s and 3 m/s^2).
 std::vector<ArmState> RandomStates(const Robot& robot, int count,
@@ -45,20 +65,12 @@ std::vector<ArmState> RandomStates(const Robot& robot, int count,
   return states;
 }
 
-// At most `count` states, evenly spread over all logs: one is due whenever
-// `passed` samples have reached the next multiple of `step`.
 std::vector<ArmState> LoggedStates(int count, const Progress& progress,
                                    const PreparedLogs& logs) {
-  double samples = 0;
-  for (const TimeBase& base : logs.time_bases()) samples += base.samples;
-  const double step = std::max(1.0, samples / count);
   std::vector<ArmState> states;
-  double passed = 0;  // samples of the grid, thinned ones counted as one
+  EvenSamples even(count, logs);
   logs.ForEach("states", progress, [&](int log, const Trajectory& t) {
-    const double thinned = t.dt / logs.time_bases()[log].dt;
-    for (int k = t.core_begin; k < t.core_end; ++k, passed += thinned) {
-      const bool due = passed >= step * static_cast<double>(states.size());
-      if (!due || static_cast<int>(states.size()) >= count) continue;
+    for (const int k : even.In(log, t)) {
       states.push_back({t.q.row(k), t.qd.row(k), t.qdd.row(k)});
     }
   });

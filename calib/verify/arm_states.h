@@ -22,6 +22,23 @@ struct ArmState {
 std::vector<ArmState> RandomStates(const Robot& robot, int count,
                                    std::uint64_t seed);
 
+// At most `count` samples of logs, evenly spread over all of them.
+class EvenSamples {
+ public:
+  EvenSamples(int count, const PreparedLogs& logs);
+
+  // The rows of a stretch's core that are among them. Stretches come in the
+  // order of PreparedLogs::ForEach().
+  std::vector<int> In(int log, const Trajectory& trajectory);
+
+ private:
+  int count_;
+  std::vector<TimeBase> time_bases_;
+  double step_;
+  double passed_ = 0;  // samples
+  int chosen_ = 0;
+};
+
 // At most `count` states of the logs' motion, evenly spread.
 std::vector<ArmState> LoggedStates(int count, const Progress& progress,
                                    const PreparedLogs& logs);

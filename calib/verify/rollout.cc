@@ -2,67 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 
-#include "calib/numerics/block_bootstrap.h"
-#include "calib/numerics/undefined.h"
+#include "calib/verify/simbody_rollouts.h"
+#include "model/dynamics/batch_torque_replay.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 constexpr double kNeverLost = std::numeric_limits<double>::infinity();
 
-// How many simulations referees repeat, of each length, model and stretch of a
-// log.
-constexpr int kRefereed = 1;
-// A referee's local error, and how many steps it may take for it. Unstable
-// motion makes errors grow a thousandfold within a second: where a referee
-// disagrees it is asked again, more exactly.
-struct RefereeEffort {
-  double tolerance;
-  long steps;
-};
-constexpr RefereeEffort kRefereeEfforts[] = {{1e-8, 1500}, {1e-11, 15'000}};
+// rms over the rows after `first` of simulated minus recorded, per joint.
+Eigen::RowVectorXd RmsFrom(const MatrixXd& simulated, const MatrixXd& recorded,
+                           int first) {
+  const auto length = simulated.rows();
+  return (simulated - recorded.middleRows(first + 1, length)).colwise().norm() /
+         std::sqrt(static_cast<double>(length));
+}
 
 class Roller {
  public:
-  Roller(const std::vector<RolloutModel>& models, const RolloutOptions& options)
-      : models_(models), options_(options) {
+  Roller(const std::vector<RolloutModel>& models, const RolloutOptions& options,
+         const std::vector<TimeBase>& time_bases)
+      : models_(models), options_(options), time_bases_(time_bases) {
     for (const double window_s : options.windows_s) {
-      rollouts_.push_back({window_s, {}, 0});
+      rollouts_.push_back({window_s, {}});
     }
+    for (const RolloutModel& model : models) {
+      replays_.emplace_back(model.robot, model.transitions);
+    }
+    coulomb_.resize(models.size());
+    double samples = 0;
+    for (const TimeBase& base : time_bases) samples += base.samples;
+    if (options.simbody_s) simbody_.emplace(models, options, samples);
   }
 
   // Multiple shooting: each window begins at the log's own state. Over a whole
   // log errors would grow with the loop open until they say nothing of the
   // model.
   void Add(int log, const Trajectory& trajectory) {
-    std::vector<std::vector<int>> begins;  // of windows, per length
-    for (Rollouts& rollouts : rollouts_) {
-      begins.push_back(Begins(trajectory, &rollouts));
-      for (const int k : begins.back()) {
-        const MatrixXd unknown = MatrixXd::Constant(
-            models_.size(), trajectory.num_joints(), kNeverLost);
-        rollouts.windows.push_back({log, trajectory.time(k), unknown, unknown});
-      }
+    tasks_.clear();
+    targets_.clear();
+    for (size_t r = 0; r < rollouts_.size(); ++r) {
+      AddWindows(log, trajectory, static_cast<int>(r));
     }
     for (size_t m = 0; m < models_.size(); ++m) {
-      const MatrixXd& coulomb = models_[m].replay->Follow(trajectory);
-      for (size_t r = 0; r < rollouts_.size(); ++r) {
-        Simulate(trajectory, begins[r], static_cast<int>(m), coulomb,
-                 &rollouts_[r]);
-      }
+      SimulateOurselves(trajectory, static_cast<int>(m));
     }
+    if (simbody_) AskSimbody(log, trajectory);
   }
 
   std::vector<Rollouts> TakeRollouts() { return std::move(rollouts_); }
 
  private:
+  // Where a task's result belongs.
+  struct Target {
+    int rollouts;  // of which length
+    int index;     // among the stretch's windows of this length
+    int window;    // in Rollouts::windows
+  };
+
+  RolloutWindow& WindowOf(const Target& target) {
+    return rollouts_[target.rollouts].windows[target.window];
+  }
+
   static int Length(const Rollouts& rollouts, const Trajectory& trajectory) {
     return std::max(
         1, static_cast<int>(std::lround(rollouts.window_s / trajectory.dt)));
@@ -84,87 +91,121 @@ class Roller {
     return begins;
   }
 
-  // Simulates model m over the last windows of the rollouts.
-  void Simulate(const Trajectory& trajectory, const std::vector<int>& begins,
-                int m, const MatrixXd& coulomb, Rollouts* rollouts) {
-    const int length = Length(*rollouts, trajectory);
-    const std::vector<ReplayedWindow> replayed = models_[m].replay->Run(
-        trajectory, begins, length, coulomb, options_.tolerance);
-    int refereed = 0;
-    for (size_t w = 0; w < begins.size(); ++w) {
-      if (!replayed[w].finished) continue;
-      const auto rms = [&](const MatrixXd& x, const MatrixXd& recorded) {
-        return ((x - recorded.middleRows(begins[w] + 1, length))
-                    .colwise()
-                    .norm() /
-                std::sqrt(length))
-            .eval();
-      };
-      RolloutWindow& window =
-          rollouts->windows[rollouts->windows.size() - begins.size() + w];
-      window.q.row(m) = rms(replayed[w].q, trajectory.q);
-      window.qd.row(m) = rms(replayed[w].qd, trajectory.qd);
-      if (refereed++ < kRefereed && models_[m].referee != nullptr) {
-        Referee(trajectory, begins[w], coulomb.row(begins[w]), replayed[w].q,
-                models_[m].referee, rollouts);
+  void AddWindows(int log, const Trajectory& trajectory, int r) {
+    Rollouts& rollouts = rollouts_[r];
+    const MatrixXd unknown =
+        MatrixXd::Constant(models_.size(), trajectory.num_joints(), kNeverLost);
+    int index = 0;
+    for (const int k : Begins(trajectory, &rollouts)) {
+      targets_.push_back(
+          {r, index++, static_cast<int>(rollouts.windows.size())});
+      rollouts.windows.push_back(
+          {log, trajectory.time(k), unknown, unknown, unknown, {}});
+      WindowTask task{k, Length(rollouts, trajectory), {}, {}};
+      task.coulomb.resize(models_.size());
+      task.own_q.resize(models_.size());
+      tasks_.push_back(std::move(task));
+    }
+  }
+
+  // Simulates model m over the stretch's windows, those of one length in lanes.
+  void SimulateOurselves(const Trajectory& trajectory, int m) {
+    const MatrixXd& coulomb = replays_[m].Follow(trajectory);
+    coulomb_[m] = &coulomb;
+    for (size_t begin = 0, end = 0; begin < tasks_.size(); begin = end) {
+      std::vector<int> first;
+      for (; end < tasks_.size() && tasks_[end].length == tasks_[begin].length;
+           ++end) {
+        first.push_back(tasks_[end].first);
+      }
+      const std::vector<ReplayedWindow> replayed = replays_[m].Run(
+          trajectory, first, tasks_[begin].length, coulomb, options_.tolerance);
+      for (size_t k = begin; k < end; ++k) {
+        Keep(trajectory, m, coulomb, replayed[k - begin], static_cast<int>(k));
       }
     }
   }
 
-  // Repeats a window in the other engine and with another integrator. Where
-  // they differ, it is asked again more exactly, so that what is left is not
-  // its own error.
-  void Referee(const Trajectory& trajectory, int begin, const VectorXd& coulomb,
-               const MatrixXd& q, TorqueReplay* referee,
-               Rollouts* rollouts) const {
-    double difference = kNaN;
-    for (const RefereeEffort& effort : kRefereeEfforts) {
-      IntegrationOptions options;
-      options.relative = options.absolute = effort.tolerance;
-      options.max_steps = effort.steps;
-      const Integration run =
-          referee->Run(trajectory, begin, begin + static_cast<int>(q.rows()),
-                       coulomb, options);
-      if (!run.finished) return;
-      difference = (run.x.leftCols(q.cols()) - q).cwiseAbs().maxCoeff();
-      if (difference <= options_.tolerance) break;
+  void Keep(const Trajectory& trajectory, int m, const MatrixXd& coulomb,
+            const ReplayedWindow& replayed, int k) {
+    WindowTask& task = tasks_[k];
+    task.coulomb[m] = coulomb.row(task.first);
+    if (!replayed.finished) return;
+    RolloutWindow& window = WindowOf(targets_[k]);
+    window.q.row(m) = RmsFrom(replayed.q, trajectory.q, task.first);
+    window.qd.row(m) = RmsFrom(replayed.qd, trajectory.qd, task.first);
+    window.own_q.row(m) = window.q.row(m);
+    if (simbody_) task.own_q[m] = replayed.q;
+  }
+
+  // Where Simbody simulates a window as well, its result counts.
+  void AskSimbody(int log, const Trajectory& trajectory) {
+    std::vector<int> indices;
+    for (const Target& target : targets_) indices.push_back(target.index);
+    const double samples = (trajectory.core_end - trajectory.core_begin) *
+                           trajectory.dt / time_bases_[log].dt;
+    const std::vector<SimbodyAnswer> answers =
+        simbody_->Run(trajectory, samples, tasks_, SpreadOrder(indices),
+                      static_cast<int>(rollouts_.size()));
+    for (size_t k = 0; k < answers.size(); ++k) {
+      for (size_t m = 0; m < answers[k].states.size(); ++m) {
+        Take(trajectory, answers[k], static_cast<int>(k), static_cast<int>(m));
+      }
     }
-    ++rollouts->refereed;
-    rollouts->referee_difference =
-        std::max(rollouts->referee_difference, difference);
+  }
+
+  // Simbody's answer of model m over window k of the stretch.
+  void Take(const Trajectory& trajectory, const SimbodyAnswer& answer, int k,
+            int m) {
+    using State = SimbodyAnswer::State;
+    Rollouts& rollouts = rollouts_[targets_[k].rollouts];
+    if (answer.states[m] == State::kNotAsked) return;
+    if (answer.states[m] == State::kUnfinished) {
+      ++rollouts.unfinished_in_simbody;
+      return;
+    }
+    RolloutWindow& window = WindowOf(targets_[k]);
+    window.simbody.push_back(m);
+    ++rollouts.in_simbody;
+    if (answer.states[m] == State::kEndedEarly) return;
+    Compare(trajectory, answer.simulated[m].q, k, m);
+    const int first = tasks_[k].first;
+    window.q.row(m) = RmsFrom(answer.simulated[m].q, trajectory.q, first);
+    window.qd.row(m) = RmsFrom(answer.simulated[m].qd, trajectory.qd, first);
+  }
+
+  // How far Simbody's positions are from ours. Unstable motion makes the errors
+  // of ours grow too: where they differ ours are computed again, a thousand
+  // times as exactly, so that what is left is a difference of the models; where
+  // that takes too small a step, nothing can be said of this window.
+  void Compare(const Trajectory& trajectory, const MatrixXd& simbody_q, int k,
+               int m) {
+    const WindowTask& task = tasks_[k];
+    if (task.own_q[m].size() == 0) return;
+    double difference = (simbody_q - task.own_q[m]).cwiseAbs().maxCoeff();
+    if (difference > options_.tolerance) {
+      const ReplayedWindow finer =
+          replays_[m].Run(trajectory, {task.first}, task.length, *coulomb_[m],
+                          options_.tolerance / 1000)[0];
+      if (!finer.finished) return;
+      difference = (simbody_q - finer.q).cwiseAbs().maxCoeff();
+    }
+    Rollouts& rollouts = rollouts_[targets_[k].rollouts];
+    ++rollouts.compared;
+    rollouts.simbody_difference =
+        std::max(rollouts.simbody_difference, difference);
   }
 
   const std::vector<RolloutModel>& models_;
   const RolloutOptions& options_;
+  const std::vector<TimeBase>& time_bases_;
+  std::vector<BatchTorqueReplay> replays_;
+  std::vector<const MatrixXd*> coulomb_;  // of the stretch, per model
+  std::optional<SimbodyRollouts> simbody_;
   std::vector<Rollouts> rollouts_;
+  std::vector<WindowTask> tasks_;  // of the stretch, lengths in turn
+  std::vector<Target> targets_;    // of these
 };
-
-double InterpolatedMedian(std::vector<double> values) {
-  if (values.empty()) return kNaN;
-  const size_t half = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + half, values.end());
-  if (values.size() % 2 == 1) return values[half];
-  const double below = *std::max_element(values.begin(), values.begin() + half);
-  return (below + values[half]) / 2;
-}
-
-// `statistic` of all windows, with an interval by a block bootstrap (Kuensch
-// 1989, Annals of Statistics 17): blocks as long as windows stay correlated are
-// drawn whole.
-RolloutFigure WithInterval(
-    int windows, double correlation_time, std::uint64_t seed,
-    const std::function<double(const std::vector<int>&)>& statistic) {
-  std::vector<int> all(windows);
-  std::iota(all.begin(), all.end(), 0);
-  RolloutFigure figure{statistic(all), kNaN, kNaN, windows};
-  if (windows < 2) return figure;
-  figure.block = BootstrapBlock(windows, correlation_time);
-  const BootstrapInterval interval =
-      BlockBootstrap(windows, figure.block, seed, statistic);
-  figure.low = interval.low;
-  figure.high = interval.high;
-  return figure;
-}
 
 double RmsOver(const Eigen::RowVectorXd& rms, const std::vector<int>& joints) {
   double sum = 0;
@@ -172,26 +213,14 @@ double RmsOver(const Eigen::RowVectorXd& rms, const std::vector<int>& joints) {
   return std::sqrt(sum / static_cast<double>(joints.size()));
 }
 
-std::vector<double> Errors(const Rollouts& rollouts, int model,
-                           const std::vector<int>& joints) {
-  std::vector<double> errors;
-  for (const RolloutWindow& window : rollouts.windows) {
-    errors.push_back(window.Error(model, joints));
-  }
-  return errors;
-}
-
-double MedianOf(const std::vector<double>& errors,
-                const std::vector<int>& chosen) {
-  std::vector<double> values;
-  for (const int k : chosen) values.push_back(errors[k]);
-  return InterpolatedMedian(std::move(values));
-}
-
 }  // namespace
 
 bool RolloutWindow::diverged(int model) const {
   return !q.row(model).allFinite();
+}
+
+bool RolloutWindow::in_simbody(int model) const {
+  return std::find(simbody.begin(), simbody.end(), model) != simbody.end();
 }
 
 double RolloutWindow::Error(int model, const std::vector<int>& joints) const {
@@ -221,58 +250,14 @@ PreparationOptions PreparationFor(const RolloutOptions& options,
 std::vector<Rollouts> RollOut(const std::vector<RolloutModel>& models,
                               const RolloutOptions& options,
                               double bandwidth_hz, const LogSet& logs) {
-  Roller roller(models, options);
-  Prepare(logs, PreparationFor(options, bandwidth_hz))
-      .ForEach("rollouts", options.progress,
-               [&roller](int log, const Trajectory& trajectory) {
-                 roller.Add(log, trajectory);
-               });
+  const PreparedLogs prepared =
+      Prepare(logs, PreparationFor(options, bandwidth_hz));
+  Roller roller(models, options, prepared.time_bases());
+  prepared.ForEach("rollouts", options.progress,
+                   [&roller](int log, const Trajectory& trajectory) {
+                     roller.Add(log, trajectory);
+                   });
   return roller.TakeRollouts();
-}
-
-std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit) {
-  std::vector<int> joints;
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    if (PositionUnit(robot.links[j].joint.type) == unit) joints.push_back(j);
-  }
-  return joints;
-}
-
-RolloutFigure MedianError(const Rollouts& rollouts, int model,
-                          const std::vector<int>& joints, std::uint64_t seed) {
-  const std::vector<double> errors = Errors(rollouts, model, joints);
-  return WithInterval(static_cast<int>(errors.size()), CorrelationTime(errors),
-                      seed, [&errors](const std::vector<int>& chosen) {
-                        return MedianOf(errors, chosen);
-                      });
-}
-
-double MedianVelocityError(const Rollouts& rollouts, int model,
-                           const std::vector<int>& joints) {
-  std::vector<double> errors;
-  for (const RolloutWindow& window : rollouts.windows) {
-    errors.push_back(window.VelocityError(model, joints));
-  }
-  return InterpolatedMedian(std::move(errors));
-}
-
-// Both medians are of the same drawn windows. Blocks are as long as the worst
-// of both errors and of their ratio stays correlated.
-RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
-                          const std::vector<int>& joints, std::uint64_t seed) {
-  const std::vector<double> of_a = Errors(rollouts, a, joints);
-  const std::vector<double> of_b = Errors(rollouts, b, joints);
-  std::vector<double> ratios;
-  for (size_t k = 0; k < of_a.size(); ++k) {
-    const double ratio = of_a[k] / of_b[k];
-    ratios.push_back(std::isnan(ratio) ? 1 : ratio);  // both diverge
-  }
-  const double time = std::max(
-      {CorrelationTime(of_a), CorrelationTime(of_b), CorrelationTime(ratios)});
-  return WithInterval(static_cast<int>(of_a.size()), time, seed,
-                      [&](const std::vector<int>& chosen) {
-                        return MedianOf(of_a, chosen) / MedianOf(of_b, chosen);
-                      });
 }
 
 }  // namespace armcal

@@ -1,8 +1,6 @@
 #include "calib/verify/rollout_comparison.h"
 
 #include <algorithm>
-#include <limits>
-#include <memory>
 
 #include "calib/numerics/undefined.h"
 #include "calib/verify/arm_engine.h"
@@ -12,21 +10,16 @@ namespace {
 
 constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
 
-// A robot, and in Simbody what is simulated there too.
-struct Model {
-  Model(const Robot& robot, const std::vector<CoulombTransition>& transitions)
-      : replay(robot, transitions),
-        engine(MakeArmEngine(robot)),
-        referee(robot, transitions, engine.dynamics.get()) {}
-
-  RolloutModel Get() {
-    return {&replay, engine.is_simbody ? &referee : nullptr};
-  }
-
-  BatchTorqueReplay replay;
-  ArmEngine engine;
-  TorqueReplay referee;
-};
+// A model's errors by either engine, where Simbody simulated it.
+EngineErrors ErrorsByEngine(const Rollouts& rollouts, int model,
+                            const std::vector<int>& joints,
+                            std::uint64_t seed) {
+  const auto median = [&](RolloutEngine engine) {
+    return MedianError(InSimbody(rollouts, model, engine), model, joints, seed);
+  };
+  const RolloutFigure simbody = median(RolloutEngine::kSimbody);
+  return {simbody.windows, simbody.value, median(RolloutEngine::kOwn).value};
+}
 
 // Medians over windows, since a window in which the arm is unstable or touches
 // something has an error as large as one likes.
@@ -41,11 +34,13 @@ RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
   c.standstill = rollouts.standstill;
   c.before_diverged = rollouts.NumDiverged(0);
   c.before = MedianError(rollouts, 0, joints, seed);
+  c.before_by_engine = ErrorsByEngine(rollouts, 0, joints, seed);
   c.before_velocity_rms = MedianVelocityError(rollouts, 0, joints);
   c.after_velocity_rms = kNaN;
   if (calibrated) {
     c.after_diverged = rollouts.NumDiverged(1);
     c.after = MedianError(rollouts, 1, joints, seed);
+    c.after_by_engine = ErrorsByEngine(rollouts, 1, joints, seed);
     c.ratio = MedianRatio(rollouts, 1, 0, joints, seed);
     c.after_velocity_rms = MedianVelocityError(rollouts, 1, joints);
   }
@@ -73,21 +68,22 @@ RolloutComparisons CompareRollouts(const Robot& file,
                                    const LogSet& logs) {
   std::vector<CoulombTransition> transitions(file.num_joints());
   if (calibrated != nullptr) transitions = calibrated->transitions;
-  Model before(file, transitions);
-  std::vector<RolloutModel> models = {before.Get()};
+  std::vector<RolloutModel> models = {{file, transitions}};
   RolloutComparisons result;
-  result.before_in_simbody = before.engine.is_simbody;
-  std::unique_ptr<Model> after;
+  result.before_in_simbody = MakeArmEngine(file).is_simbody;
   if (calibrated != nullptr) {
-    after = std::make_unique<Model>(calibrated->robot, transitions);
-    models.push_back(after->Get());
-    result.after_in_simbody = after->engine.is_simbody;
+    models.push_back({calibrated->robot, transitions});
+    result.after_in_simbody = MakeArmEngine(calibrated->robot).is_simbody;
   }
   for (const Rollouts& rollouts :
        RollOut(models, options, bandwidth_hz, logs)) {
-    result.refereed += rollouts.refereed;
-    result.referee_difference =
-        std::max(result.referee_difference, rollouts.referee_difference);
+    result.simulations +=
+        static_cast<int>(rollouts.windows.size() * models.size());
+    result.in_simbody += rollouts.in_simbody;
+    result.unfinished_in_simbody += rollouts.unfinished_in_simbody;
+    result.compared += rollouts.compared;
+    result.simbody_difference =
+        std::max(result.simbody_difference, rollouts.simbody_difference);
     for (const char* unit : {"rad", "m"}) {
       if (JointsWithUnit(file, unit).empty()) continue;
       result.windows.push_back(

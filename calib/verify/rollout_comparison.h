@@ -7,7 +7,7 @@
 
 #include "calib/logs/log_set.h"
 #include "calib/refine/calibration_reader.h"
-#include "calib/verify/rollout.h"
+#include "calib/verify/rollout_figures.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -17,6 +17,12 @@ struct JointRollout {
   std::string name;
   double before_rms;  // rad or m
   double after_rms;   // NaN without a calibration
+};
+
+// The same windows by Simbody's dynamics and by ours: medians of rms errors.
+struct EngineErrors {
+  int windows = 0;      // in which Simbody simulated the robot
+  double simbody, own;  // rad or m; NaN without windows
 };
 
 // The windows that say which robot is nearer to the log, s.
@@ -34,7 +40,9 @@ struct RolloutComparison {
   RolloutFigure before;
   std::optional<RolloutFigure> after;
   std::optional<RolloutFigure> ratio;  // after / before
-  double before_velocity_rms;          // rad/s or m/s
+  EngineErrors before_by_engine;
+  std::optional<EngineErrors> after_by_engine;
+  double before_velocity_rms;  // rad/s or m/s
   double after_velocity_rms;
   std::vector<JointRollout> joints;
 
@@ -48,10 +56,15 @@ struct RolloutComparisons {
   // Whether Simbody has the robots, too; it refuses some links.
   bool before_in_simbody = true;
   bool after_in_simbody = true;
-  // How many of the simulations it repeated, and how far from its positions
-  // ours were at most, rad or m.
-  int refereed = 0;
-  double referee_difference = 0;
+  // Of a window, a robot each: how many there are, how many Simbody did, how
+  // many it began and could not end (those are ours, as all others are), how
+  // many of Simbody's were compared with ours, and how far apart the positions
+  // were at most, rad or m.
+  int simulations = 0;
+  int in_simbody = 0;
+  int unfinished_in_simbody = 0;
+  int compared = 0;
+  double simbody_difference = 0;
 };
 
 // Rolls the robot file's robot and, unless null, the calibrated one out over

@@ -7,6 +7,7 @@
 
 #include "calib/numerics/undefined.h"
 #include "calib/verify/arm_states.h"
+#include "calib/verify/largest_ratio.h"
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/plant/simbody_arm.h"
@@ -24,24 +25,10 @@ constexpr double kSame = 1e-10;
 constexpr double kDrift = 1e-6;
 // Solving with the mass matrix loses its condition number.
 constexpr double kConsistent = 1e-8;
-constexpr double kSmallTorque = 1e-3;    // of the largest
 constexpr double kSwingAccuracy = 1e-9;  // local error of integrators
 constexpr int kSwingParts = 10;          // where the energy is looked at
 // Of a swing; arms of a metre take some 20,000 at most.
 constexpr int kSwingSteps = 100'000;
-
-// The largest of relative differences, NaN once one is.
-class LargestRatio {
- public:
-  void Add(double difference, double scale) {
-    const double ratio = difference == 0 ? 0 : difference / scale;
-    if (!(ratio <= largest_)) largest_ = ratio;
-  }
-  double value() const { return largest_; }
-
- private:
-  double largest_ = 0;
-};
 
 // Why Simbody refuses links, each looked at alone.
 std::vector<std::string> Refusals(const Robot& robot) {

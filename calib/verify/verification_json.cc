@@ -29,6 +29,31 @@ json FigureJson(const RolloutFigure& figure) {
   return {JsonNumber(figure.low), JsonNumber(figure.high)};
 }
 
+// The same windows by Simbody and by ours, medians of rms errors.
+json EnginesJson(const RolloutComparison& c) {
+  json out = {{"windows", c.before_by_engine.windows},
+              {"before_rms", JsonNumber(c.before_by_engine.simbody)},
+              {"own_before_rms", JsonNumber(c.before_by_engine.own)}};
+  if (c.after_by_engine) {
+    out["windows"] = c.after_by_engine->windows;
+    out["after_rms"] = JsonNumber(c.after_by_engine->simbody);
+    out["own_after_rms"] = JsonNumber(c.after_by_engine->own);
+  }
+  return out;
+}
+
+json LogTorquesJson(const LogTorques& torques) {
+  json out = {{"samples", torques.samples}, {"joints", json::array()}};
+  for (const JointLogTorque& joint : torques.joints) {
+    out["joints"].push_back({{"name", joint.name},
+                             {"unit", joint.unit},
+                             {"recorded_rms", JsonNumber(joint.recorded_rms)},
+                             {"before_rms", JsonNumber(joint.before_rms)},
+                             {"after_rms", JsonNumber(joint.after_rms)}});
+  }
+  return out;
+}
+
 json RolloutJson(const RolloutComparison& c) {
   const double none = std::nan("");
   // The interval is that of the last robot, the calibrated one if there is.
@@ -45,6 +70,7 @@ json RolloutJson(const RolloutComparison& c) {
               {"after_diverged", c.after_diverged},
               {"before_velocity_rms", JsonNumber(c.before_velocity_rms)},
               {"after_velocity_rms", JsonNumber(c.after_velocity_rms)},
+              {"in_simbody", EnginesJson(c)},
               {"joints", json::array()}};
   if (c.ratio) {
     out["ratio_ci95"] = FigureJson(*c.ratio);
@@ -101,8 +127,14 @@ json ToJson(const VerificationReport& report) {
       out["rollout"].push_back(RolloutJson(c));
     }
     out["rollout_in_simbody"] = {
-        {"simulations", report.rollouts->refereed},
-        {"max_difference", report.rollouts->referee_difference}};
+        {"simulations", report.rollouts->in_simbody},
+        {"of", report.rollouts->simulations},
+        {"unfinished", report.rollouts->unfinished_in_simbody},
+        {"compared", report.rollouts->compared},
+        {"max_difference", report.rollouts->simbody_difference}};
+  }
+  if (report.log_torques) {
+    out["log_torques"] = LogTorquesJson(*report.log_torques);
   }
   if (report.closed_loop) {
     out["closed_loop"] = ClosedLoopJson(*report.closed_loop);

@@ -1,5 +1,6 @@
 #include "calib/verify/verification_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/text/format.h"
@@ -21,13 +22,22 @@ std::string CheckTitle(const std::string& name) {
   if (name == "energy_drift_rel") return "energy drift, Simbody";
   if (name == "own_energy_drift_rel") return "energy drift, ours";
   if (name == "own_consistency_rel") return "forward, then inverse";
+  if (name == "log_torque_max_rel") return "torque along the logs";
   return name;
+}
+
+// The torque along the logs is compared where there is a sample, and Simbody
+// takes the robot: else a reason has said why not.
+VerificationCheck LogTorqueCheck(const LogTorques& torques) {
+  return {"log_torque_max_rel", torques.max_rel, LogTorques::kMostRel, true};
 }
 
 std::string CheckTable(const VerificationReport& report) {
   std::string text =
       "\nours against Simbody      largest relative difference   at most\n";
-  for (const VerificationCheck& check : report.verification.Checks()) {
+  std::vector<VerificationCheck> checks = report.verification.Checks();
+  if (report.log_torques) checks.push_back(LogTorqueCheck(*report.log_torques));
+  for (const VerificationCheck& check : checks) {
     const std::string value =
         std::isnan(check.value) ? "not compared" : Format("%.2e", check.value);
     text += Format("  %-24s %26s %9.0e%s\n", CheckTitle(check.name).c_str(),
@@ -35,6 +45,10 @@ std::string CheckTable(const VerificationReport& report) {
                    check.passed() ? "" : "   missed");
   }
   return text;
+}
+
+std::string NumberOrDash(double x) {
+  return std::isfinite(x) ? Format("%.3g", x) : std::string("-");
 }
 
 std::string FigureText(const RolloutFigure& figure) {
@@ -83,15 +97,46 @@ std::string JudgementText(const RolloutComparison& c) {
                            : joints + "not shown to be better than the file\n";
 }
 
+// By whose dynamics the windows were simulated.
+std::string EnginesText(const RolloutComparisons& rollouts) {
+  if (rollouts.in_simbody == 0) return "by armcal";
+  if (rollouts.in_simbody == rollouts.simulations) return "by Simbody";
+  return Format("%d of %d times by Simbody, else by armcal",
+                rollouts.in_simbody, rollouts.simulations);
+}
+
+// Where the rows mix engines, what each says of the same windows; and how near
+// they are to each other.
+std::string BothEnginesText(const RolloutComparisons& rollouts) {
+  if (rollouts.in_simbody == 0) return "";
+  std::string text;
+  for (const RolloutComparison& c : rollouts.windows) {
+    const EngineErrors& errors =
+        c.after_by_engine ? *c.after_by_engine : c.before_by_engine;
+    if (c.window_s != kJudgedWindow || errors.windows == c.windows ||
+        errors.windows == 0) {
+      continue;
+    }
+    text += Format(
+        "  of %g s in %s, %d windows: %.3g by Simbody, %.3g by armcal\n",
+        c.window_s, c.unit.c_str(), errors.windows, errors.simbody, errors.own);
+  }
+  if (rollouts.compared == 0) return text;
+  return text + Format(
+                    "  positions by Simbody and by armcal: within %.2g rad "
+                    "or m in %d simulations\n",
+                    rollouts.simbody_difference, rollouts.compared);
+}
+
 // A row per length and unit, what the judged ones do not show, and what was
 // left out.
 std::string RolloutTable(const RolloutComparisons& rollouts) {
   if (rollouts.windows.empty()) return "";
   const bool calibrated = rollouts.windows[0].after.has_value();
-  std::string text =
-      "\nsimulated from the log's states with its torque; rms of positions, "
-      "median over windows [95 %]\n"
-      "  window     windows     the file's robot";
+  std::string text = "\nsimulated from the log's states with its torque, " +
+                     EnginesText(rollouts) +
+                     "\nrms of positions, median over windows [95 %]\n"
+                     "  window     windows     the file's robot";
   text += calibrated ? "               calibrated                     ratio\n"
                      : "\n";
   for (const RolloutComparison& c : rollouts.windows) text += RolloutRow(c);
@@ -102,12 +147,34 @@ std::string RolloutTable(const RolloutComparisons& rollouts) {
                    first.standstill, first.window_s);
   }
   if (!rollouts.before_in_simbody || !rollouts.after_in_simbody) {
-    text += std::string("  not repeated in Simbody, which refuses ") +
+    text += std::string("  not simulated in Simbody, which refuses ") +
             (rollouts.after_in_simbody ? "the file's robot\n" : "links\n");
   }
-  if (rollouts.refereed > 0) {
-    text += Format("  %d of them repeated in Simbody: within %.2g rad or m\n",
-                   rollouts.refereed, rollouts.referee_difference);
+  if (rollouts.unfinished_in_simbody > 0) {
+    text += Format("  %d took Simbody too many steps: armcal's\n",
+                   rollouts.unfinished_in_simbody);
+  }
+  return text + BothEnginesText(rollouts);
+}
+
+// Recorded torque minus the robots', joint by joint.
+std::string LogTorqueTable(const LogTorques& torques) {
+  const bool refused = std::all_of(torques.joints.begin(), torques.joints.end(),
+                                   [](const JointLogTorque& joint) {
+                                     return std::isnan(joint.before_rms) &&
+                                            std::isnan(joint.after_rms);
+                                   });
+  if (refused) return "";  // by Simbody, or there is no sample
+  std::string text = Format(
+      "\nrecorded torque minus that of Simbody's inverse dynamics; rms of %d "
+      "samples\n"
+      "  joint                      the file's robot  calibrated  recorded\n",
+      torques.samples);
+  for (const JointLogTorque& joint : torques.joints) {
+    text += Format("  %-20s %-3s %18s %11s %9s\n", joint.name.c_str(),
+                   joint.unit.c_str(), NumberOrDash(joint.before_rms).c_str(),
+                   NumberOrDash(joint.after_rms).c_str(),
+                   NumberOrDash(joint.recorded_rms).c_str());
   }
   return text;
 }
@@ -118,16 +185,13 @@ std::string ClosedLoopTable(const ClosedLoopComparison& loop) {
       "recorded\n"
       "  joint              position: file  calibrated       torque: file  "
       "calibrated  recorded\n";
-  const auto number = [](double x) {
-    return std::isfinite(x) ? Format("%.3g", x) : std::string("-");
-  };
   for (const ClosedLoopJoint& joint : loop.joints) {
     text += Format("  %-20s %12s %11s %-4s %13s %11s %9s\n", joint.name.c_str(),
-                   number(joint.before_rms).c_str(),
-                   number(joint.after_rms).c_str(), joint.unit.c_str(),
-                   number(joint.before_torque_rms).c_str(),
-                   number(joint.after_torque_rms).c_str(),
-                   number(joint.torque_rms).c_str());
+                   NumberOrDash(joint.before_rms).c_str(),
+                   NumberOrDash(joint.after_rms).c_str(), joint.unit.c_str(),
+                   NumberOrDash(joint.before_torque_rms).c_str(),
+                   NumberOrDash(joint.after_torque_rms).c_str(),
+                   NumberOrDash(joint.torque_rms).c_str());
   }
   return text;
 }
@@ -172,6 +236,7 @@ std::string Heading(const VerificationReport& report) {
 
 std::vector<VerificationCheck> VerificationReport::Checks() const {
   std::vector<VerificationCheck> checks = verification.Checks();
+  if (log_torques) checks.push_back(LogTorqueCheck(*log_torques));
   if (!rollouts) return checks;
   for (const RolloutComparison& c : rollouts->windows) {
     if (!c.is_judged()) continue;
@@ -179,9 +244,9 @@ std::vector<VerificationCheck> VerificationReport::Checks() const {
         {"rollout_ratio_low_" + NumberText(c.window_s) + "s_" + c.unit,
          c.ratio->low, 1});
   }
-  if (rollouts->refereed > 0) {
+  if (rollouts->compared > 0) {
     checks.push_back(
-        {"rollout_max_abs", rollouts->referee_difference, kSameRollout});
+        {"rollout_max_abs", rollouts->simbody_difference, kSameRollout});
   }
   return checks;
 }
@@ -208,6 +273,7 @@ std::vector<std::string> VerificationReport::Shortcomings() const {
 std::string FullReport(const VerificationReport& report) {
   std::string text = Heading(report) + CheckTable(report);
   if (report.rollouts) text += RolloutTable(*report.rollouts);
+  if (report.log_torques) text += LogTorqueTable(*report.log_torques);
   if (report.closed_loop) text += ClosedLoopTable(*report.closed_loop);
   text += "\n";
   const std::vector<std::string> shortcomings = report.Shortcomings();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/closed_loop/comparison.h"
+#include "calib/verify/log_torques.h"
 #include "calib/verify/rollout_comparison.h"
 #include "calib/verify/verification.h"
 #include "model/robot/robot.h"
@@ -15,7 +16,9 @@ namespace armcal {
 struct VerificationReport {
   Robot robot;  // that was verified
   Verification verification;
-  std::optional<RolloutComparisons> rollouts;  // where a log was given
+  // Where a log with torques was given.
+  std::optional<RolloutComparisons> rollouts;
+  std::optional<LogTorques> log_torques;
   // Where a controller was given, a loop that follows the logged command.
   std::optional<ClosedLoopComparison> closed_loop;
   std::uint64_t seed = 1;

@@ -15,6 +15,11 @@ DEFINE_string(
     "`FILE` calibration.json of armcal calibrate for --robot, or its folder: "
     "its refined parameters instead of the robot file's own");
 
+DEFINE_double(
+    budget, 60,
+    "`S` for Simbody's simulations of stretches of the log, the rest is "
+    "armcal's; 0: all of them");
+
 namespace armcal {
 namespace {
 
@@ -26,6 +31,7 @@ VerifyOptions VerifyOptionsFromFlags(const CommandInput& input,
   options.reading = LogOptionsFromFlags(flags, robot);
   options.bandwidth_hz = BandwidthFromFlags(flags);
   options.controller = flags.Text("controller");
+  options.budget_s = flags.Number("budget");
   options.seed = SeedFromFlags(flags);
   options.draw_torques = input.WantsReport();
   options.progress = input.progress;
@@ -64,7 +70,7 @@ Command VerifyCommand() {
       "(Simbody): torques, mass matrix, gravity, energy; and simulated "
       "over stretches of a log, before and after calibration",
       {{"robot and logs", {"robot", "calibration", "log", "crop", "bandwidth"}},
-       {"simulation", {"controller", "seed"}},
+       {"simulation", {"controller", "budget", "seed"}},
        TorqueFlags(),
        ChainFlags()},
       {"armcal verify --robot=arm.urdf",

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <random>
 
-#include "calib/verify/rollout.h"
+#include "calib/verify/rollout_figures.h"
 
 namespace armcal::rollout_long_test {
 
@@ -23,7 +23,7 @@ struct Study {
 Rollouts Draw(int windows, int run, std::mt19937_64* random) {
   std::normal_distribution<double> normal;
   const int phase = static_cast<int>((*random)() % run);
-  Rollouts rollouts{.5, {}, 0};
+  Rollouts rollouts{.5, {}};
   double a = 0, b = 0;
   for (int k = 0; k < windows; ++k) {
     if (k == 0 || (k + phase) % run == 0) {
@@ -33,7 +33,7 @@ Rollouts Draw(int windows, int run, std::mt19937_64* random) {
     }
     Eigen::MatrixXd q(2, 1);
     q << a, b;
-    rollouts.windows.push_back({0, .5 * k, q, q});
+    rollouts.windows.push_back({0, .5 * k, q, q, q, {}});
   }
   return rollouts;
 }

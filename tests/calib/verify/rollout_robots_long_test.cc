@@ -6,12 +6,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "calib/linear/calibrate_linear.h"
 #include "calib/linear/calibration.h"
 #include "calib/refine/nonlinear_calibration.h"
-#include "calib/verify/rollout.h"
+#include "calib/verify/rollout_figures.h"
 #include "model/robot_files/robot_reader.h"
 #include "tests/calib/verify/rollout_rivals.h"
 
@@ -71,14 +70,9 @@ class Contest {
 
   // Ours are nearer than each rival's, beyond what chance explains.
   void Run() {
-    std::vector<Robot> robots = {refined_};
-    for (const Rival& rival : rivals_) robots.push_back(rival.robot);
-    std::vector<std::unique_ptr<BatchTorqueReplay>> replays;
-    std::vector<RolloutModel> models;
-    for (const Robot& robot : robots) {
-      replays.push_back(
-          std::make_unique<BatchTorqueReplay>(robot, transitions_));
-      models.push_back({replays.back().get()});
+    std::vector<RolloutModel> models = {{refined_, transitions_}};
+    for (const Rival& rival : rivals_) {
+      models.push_back({rival.robot, transitions_});
     }
     RolloutOptions options;
     options.windows_s = {0.5};

@@ -1,13 +1,13 @@
-#include "calib/verify/rollout.h"
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <numeric>
 #include <optional>
 
-#include "model/plant/simbody_arm.h"
+#include "calib/verify/rollout_figures.h"
+#include "calib/verify/simbody_rollouts.h"
 #include "tests/fixtures/sample_motion.h"
 #include "tests/fixtures/sample_robots.h"
 #include "tests/fixtures/temp_file.h"
@@ -44,17 +44,10 @@ class RolloutLogs : public testing::Test {
 
   std::vector<Rollouts> Run(const std::vector<Robot>& robots,
                             RolloutOptions options = {}) {
-    const std::vector<CoulombTransition> transitions(3);
-    std::vector<std::unique_ptr<BatchTorqueReplay>> replays;
     std::vector<RolloutModel> models;
     for (const Robot& robot : robots) {
-      replays.push_back(
-          std::make_unique<BatchTorqueReplay>(robot, transitions));
-      models.push_back({replays.back().get()});
+      models.push_back({robot, std::vector<CoulombTransition>(3)});
     }
-    SimbodyArm simbody(truth_);
-    TorqueReplay referee(truth_, transitions, &simbody);
-    if (robots.size() > 1) models[0].referee = &referee;
     return RollOut(models, options, 0, *logs_);
   }
 
@@ -79,10 +72,6 @@ TEST_F(RolloutLogs, TheTruthIsNearAndAnErrorShowsAtItsSize) {
   EXPECT_EQ(all[2].standstill, 5);
   EXPECT_LT(MedianError(all[2], 0, joints, 1).value, 1e-4);
   EXPECT_EQ(all[0].NumDiverged(1), 0);
-  // One in each stretch of the log is Simbody's too.
-  EXPECT_GE(all[0].refereed, 1);
-  EXPECT_LT(all[0].referee_difference, 1e-5);
-  EXPECT_GT(all[0].referee_difference, 0);
   // At rest joint 3 alone would get qdd = offset / (M33 + armature); friction
   // and the other joints take their share, in .2 s less than half.
   const double least = truth_.links[2].inertial.inertia(2, 2) + .2;
@@ -92,6 +81,57 @@ TEST_F(RolloutLogs, TheTruthIsNearAndAnErrorShowsAtItsSize) {
   EXPECT_GT(found, .3 * free);
   const RolloutFigure ratio = MedianRatio(all[0], 0, 1, joints, 1);
   EXPECT_LT(ratio.high, .1);
+}
+
+// Without a limit Simbody simulates every window, and its errors count.
+TEST_F(RolloutLogs, SimbodySimulatesAllThatItHasTimeFor) {
+  Robot wrong = truth_;
+  wrong.links[2].joint.offset = .3;
+  RolloutOptions options;
+  const std::vector<Rollouts> own = Run({truth_, wrong});
+  options.simbody_s = kInfinity;
+  const std::vector<Rollouts> all = Run({truth_, wrong}, options);
+  for (size_t k = 0; k < all.size(); ++k) {
+    const Rollouts& r = all[k];
+    EXPECT_EQ(r.in_simbody, 2 * static_cast<int>(r.windows.size()));
+    EXPECT_EQ(r.unfinished_in_simbody, 0);
+    EXPECT_LT(r.simbody_difference, 1e-5);
+    EXPECT_GT(r.simbody_difference, 0);
+    for (size_t w = 0; w < r.windows.size(); ++w) {
+      const RolloutWindow& window = r.windows[w];
+      EXPECT_EQ(window.simbody, (std::vector<int>{0, 1}));
+      EXPECT_EQ(window.own_q, own[k].windows[w].q);
+      EXPECT_NE(window.q, window.own_q);
+      EXPECT_LT((window.q - window.own_q).cwiseAbs().maxCoeff(), 1e-5);
+    }
+  }
+}
+
+// With no time at all it simulates a window of each length in each stretch; the
+// rest are ours.
+TEST_F(RolloutLogs, WithoutTimeSimbodySimulatesOneWindowOfEachLength) {
+  RolloutOptions options;
+  options.simbody_s = 0;
+  for (const Rollouts& r : Run({truth_}, options)) {
+    EXPECT_EQ(r.in_simbody, 1);
+    EXPECT_EQ(InSimbody(r, 0, RolloutEngine::kSimbody).windows.size(), 1u);
+    EXPECT_TRUE(r.windows[0].in_simbody(0));
+    EXPECT_EQ(r.windows.back().q, r.windows.back().own_q);
+  }
+}
+
+// Each beginning of the order is spread over all windows: of its first 2^k no
+// gap is longer than 2^-k of them, and lengths take turns.
+TEST(SpreadOrder, IsEvenHoweverFarOneComes) {
+  std::vector<int> indices(64);
+  std::iota(indices.begin(), indices.end(), 0);
+  const std::vector<int> order = SpreadOrder(indices);
+  for (int count = 1; count <= 64; count *= 2) {
+    std::vector<int> first(order.begin(), order.begin() + count);
+    std::sort(first.begin(), first.end());
+    for (int k = 0; k < count; ++k) EXPECT_EQ(first[k], k * 64 / count);
+  }
+  EXPECT_EQ(SpreadOrder({0, 1, 0, 1}), (std::vector<int>{0, 2, 1, 3}));
 }
 
 // A spinning joint that nothing brakes ends early in every window: its error
@@ -122,11 +162,11 @@ TEST_F(RolloutLogs, ToleranceIsFineEnough) {
 
 // Windows of one joint with these errors for two models.
 Rollouts WithErrors(const std::vector<double>& errors, double factor) {
-  Rollouts rollouts{.2, {}, 0};
+  Rollouts rollouts{.2, {}};
   for (const double error : errors) {
     MatrixXd q(2, 1);
     q << error, factor * error;
-    rollouts.windows.push_back({0, 0, q, q});
+    rollouts.windows.push_back({0, 0, q, q, q, {}});
   }
   return rollouts;
 }

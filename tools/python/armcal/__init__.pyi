@@ -175,6 +175,7 @@ def verify(
     crop: Optional[Range] = None,
     bandwidth: Optional[float] = None,
     controller: Optional[Path] = None,
+    budget: float = 60.0,
     seed: int = 0,
     torque_kind: Literal['auto', 'command', 'current', 'link', 'motor', 'voltage'] = 'auto',
     torque_constants: Optional[Union[float, Sequence[float]]] = None,
@@ -200,6 +201,9 @@ def verify(
     controller           Path: YAML with the controller's law (pd, p, cascade),
                          rate, gains, limits, delay, lag; default: pd of 8 Hz
                          per joint, slower where that rings
+    budget               float, s: for Simbody's simulations of stretches of
+                         the log, the rest is armcal's; 0: all of them (default
+                         60)
     seed                 int: of everything that is drawn at random (default 0)
     torque_kind          str: what the log's torque is: auto, link, motor
                          (motor side, times gear ratio), current, command,

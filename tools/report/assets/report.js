@@ -83,7 +83,7 @@
 
   const checkNames = {
     torque_max_rel: 'torque', mass_matrix_max_rel: 'mass matrix', gravity_max_rel: 'gravity torque',
-    energy_max_rel: 'energy', energy_drift_rel: 'energy drift of Simbody’s simulation',
+    energy_max_rel: 'energy', log_torque_max_rel: 'torque along the logs', energy_drift_rel: 'energy drift of Simbody’s simulation',
     own_energy_drift_rel: 'energy drift of ours', own_consistency_rel: 'forward, then inverse dynamics'};
   const checks = () => data.command === 'verify' && table(
       ['check', 'largest (relative) difference', 'at most', ''],
@@ -96,8 +96,13 @@
            low: (r.before_ci95 || [])[0], high: (r.before_ci95 || [])[1]},
           {label: 'calibrated', value: r.after_rms, colour: 'c1',
            low: (r.ci95 || [])[0], high: (r.ci95 || [])[1]}], r.unit),
-    note(`median of ${r.windows} windows with its 95 % interval` +
+    note(`median of ${r.windows} windows with its 95 % interval, ` +
+         `${(r.in_simbody || {}).windows || 0} of them simulated by Simbody` +
          (isNumber(r.ratio) ? `; the ratio is ${number(r.ratio)}` : ''))]);
+
+  const logTorques = () => result.log_torques && table(
+      ['joint', 'the file’s robot', 'calibrated', 'recorded', 'unit'],
+      result.log_torques.joints.map((j) => [j.name, number(j.before_rms), number(j.after_rms), number(j.recorded_rms), j.unit]), true);
 
   // -- design --------------------------------------------------------------------
 
@@ -160,6 +165,7 @@
     ['Which effect', poseEffects], ['How far the distances shrink', poseGap], ['In space', poseSpace],
     ['Pose by pose', poseOrder], ['Joint by joint', poseJoints], ['Corrections of joint positions', poseCorrection],
     ['Torque per current', driveGains], ['Joints', jointTable], ['Positions, in closed loop', positionTable], ['Checks', checks], ['Simulated from the log', rollouts],
+    ['Torque that Simbody’s inverse dynamics leaves of the log, rms', logTorques],
     ['The motion', motion], ['The postures', postures], ['What it will tell', predicted], ['Assumed', assumed],
     ['Geometry', geometry], ['Pose by pose', poses],
     ['Following the command', positions], ['Torque, recorded and predicted', torques], ['What the residual follows', maps],
