@@ -1,5 +1,7 @@
 #include "calib/diagnose.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -292,11 +294,20 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   }
   DiagnosisOptions fit = FitOptions(options);
   if (!clocks.empty()) LeaveOutLaws(&fit.without);
+  // They are looked for while effects are, and needed when these are judged.
+  std::vector<DataFinding> wrong_readings;
+  tbb::task_group looking;
   if (options.controller.empty()) {
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();
-    fit.wrong_readings =
-        WrongReadings(robot, AllLogs(logs, options), reading, scales);
+    looking.run([&, scales] {
+      wrong_readings =
+          WrongReadings(robot, AllLogs(logs, options), reading, scales);
+    });
+    fit.wrong_readings = [&] {
+      looking.wait();
+      return wrong_readings;
+    };
   }
   const std::optional<CalibratedRobot> calibrated =
       Calibrated(robot, options.calibration, &fit.baseline);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/candidates/law_share.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
@@ -14,6 +15,7 @@
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/given_up.h"
 #include "calib/diagnose/judge/held_out.h"
+#include "calib/diagnose/judge/where.h"
 #include "calib/diagnose/select/fit.h"
 #include "calib/diagnose/select/reference.h"
 #include "calib/diagnose/trace.h"
@@ -55,14 +57,15 @@ class Diagnoser {
                    std::vector<GapSegment>* before);
   void FreeWhatIsContradicted(MissingTerms missing,
                               std::vector<GapSegment>* segments);
+  // `evaluated`: candidates whose torques are known.
   void Fit(const std::vector<GapSegment>& segments,
-           const std::vector<GapSegment>& before);
+           const std::vector<GapSegment>& before,
+           std::vector<GapCandidate> evaluated = {});
   void KnowWhatModelsLack(const std::vector<GapSegment>& segments,
                           const std::vector<GapSegment>& before);
   GapFigures FiguresOf(const HeldOut::Residuals& residuals) const;
   bool ClaimNoMore(GapFindings* findings);
   JointGap JointFigures(int joint) const;
-  JointCourse CourseOf(int joint) const;
   void Draw();
   void Simulate(const LogSet& held_out, bool split);
   void TellUnexplained();
@@ -138,9 +141,14 @@ void Diagnoser::FreeWhatIsContradicted(MissingTerms missing,
       again |= result_.trust > given;
     }
     if (!again) return;
+    const Robot robot = baseline_->robot();
+    const MotionScale scale = fit_->scale();
+    std::vector<GapCandidate> evaluated = fit_->TakeEvaluated();
     fit_.reset();  // it refers to the baseline
     FitBaseline(missing, segments, &none);
-    Fit(*segments, none);
+    Fit(*segments, none,
+        WithSameTorques(robot, baseline_->robot(), scale,
+                        std::move(evaluated)));
   }
 }
 
@@ -213,11 +221,13 @@ void Diagnoser::KnowWhatModelsLack(const std::vector<GapSegment>& segments,
 }
 
 void Diagnoser::Fit(const std::vector<GapSegment>& segments,
-                    const std::vector<GapSegment>& before) {
+                    const std::vector<GapSegment>& before,
+                    std::vector<GapCandidate> evaluated) {
   KnowWhatModelsLack(segments, before);
   const GapFitOptions options{bandwidth_hz_, options_.selection,
                               options_.without};
   fit_.emplace(*baseline_, options, segments, before);
+  fit_->Reuse(std::move(evaluated));
   fit_->Choose();
 }
 
@@ -268,31 +278,11 @@ JointGap Diagnoser::JointFigures(int j) const {
     gap.refit_rms = sigma * result_.torque.joints(j, 1);
     gap.after_rms = sigma * result_.torque.joints(j, 2);
   }
-  gap.organised = OrganisedBy(CourseOf(j));
+  gap.organised = OrganisedBy(JointCourseOf(*fit_, j));
   gap.unexplained = UnexplainedOf(
       {Excess(*fit_, j, true), fit_->rows().num_rows(j), result_.floor,
        !gap.organised.by.empty(), gap.after_rms / sigma});
   return gap;
-}
-
-JointCourse Diagnoser::CourseOf(int j) const {
-  const GapRows& rows = fit_->rows();
-  std::vector<MatrixXd> fine;
-  for (size_t s = 0; s < rows.segments().size(); ++s) {
-    const Motion& motion = rows.segments()[s].motion;
-    fine.emplace_back(motion.size(), 5);
-    fine.back() << motion.q.col(j), motion.qd.col(j), motion.qdd.col(j),
-        fit_->data()->torques()[s].load().col(j),
-        VectorXd::LinSpaced(motion.size(), motion.time(0),
-                            motion.time(motion.size() - 1));
-  }
-  const MatrixXd at = rows.PickAll(fine)(rows.SampleOfRow(j), Eigen::all);
-  return {fit_->screen().Residual(j, {}),
-          at.col(0),
-          at.col(1),
-          at.col(2),
-          at.col(3),
-          at.col(4)};
 }
 
 void Diagnoser::Draw() {
@@ -361,7 +351,7 @@ void Diagnoser::TellUnexplained() {
 }
 
 void Diagnoser::Judge() {
-  result_.data = options_.wrong_readings;
+  if (options_.wrong_readings) result_.data = options_.wrong_readings();
   for (DataFinding& computed : AuditTorque(robot_, fit_->rows())) {
     result_.data.push_back(std::move(computed));
   }

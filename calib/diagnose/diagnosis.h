@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,7 +42,8 @@ struct DiagnosisOptions {
   // logs may raise (LikeliestTrust).
   bool may_trust_less = false;
   // What makes these logs those of another arm; nothing is told of it then.
-  std::vector<DataFinding> wrong_readings;
+  // Asked when all else is known; may be empty.
+  std::function<std::vector<DataFinding>()> wrong_readings;
   std::uint64_t seed = 1;
   // Whether held-out logs are simulated as well; along their commands where
   // these and the controller are given, else over windows.

@@ -74,23 +74,6 @@ bool HasShape(const GapCandidate& candidate);
 // Of effects, those that have a shape as candidates of that shape and size.
 std::vector<GapCandidate> Sharper(const std::vector<GapCandidate>& effects);
 
-// Low-passes and thins torques of a segment into the thinned samples of all,
-// per joint; joints that they are nothing of stay empty.
-void AddThinned(const GapRows& rows, int segment,
-                const std::vector<RecordedTorque::OfJoints>& torques,
-                const std::vector<JointRows*>& thin);
-
-// Moves torques to candidates from those that are the same, which are left
-// without.
-void ReuseTorques(std::vector<GapCandidate>* evaluated,
-                  std::vector<GapCandidate>* candidates);
-
-// Fills in the torques of those that have none, several at a time.
-void EvaluateCandidates(const GapBaseline& baseline, const GapRows& rows,
-                        const MotionScale& scale,
-                        const std::vector<RecordedTorque>& torques,
-                        std::vector<GapCandidate>* candidates);
-
 // Their columns, whitened as the rows are now.
 void AddCandidates(const GapRows& rows, std::vector<GapCandidate>* candidates,
                    GapScreen* screen);

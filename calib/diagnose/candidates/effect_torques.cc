@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
+
 namespace armcal {
 namespace {
 

@@ -70,8 +70,11 @@ double Rms(const VectorXd& x) {
 // Some loggers write a torque that they computed from positions by a model
 // without accelerations. It is told by a fit of a law of position alone: a
 // measured torque leaves at least what the links need to accelerate. Joints
-// that hardly accelerate cannot tell (least_inertial). The worst joint decides,
-// since one that was measured is enough.
+// that hardly accelerate cannot tell (least_inertial). Of a torque that is
+// small beside what the file's links would need (another joint's positions, a
+// mass that is far off) the law has to explain its part too, since any torque
+// leaves less than that. The worst joint decides, since one that was measured
+// is enough.
 std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
   const StaticRegression all = Prepare(robot, rows);
   int told = 0;
@@ -80,19 +83,20 @@ std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
     const std::vector<int> moving = rows.SampleOfRow(j);
     if (moving.empty()) continue;
     const VectorXd torque = all.torque.col(j)(moving);
+    const double size = Rms(torque);
     const double inertial = Rms(all.inertial.col(j)(moving));
-    if (inertial < Limits().least_inertial * Rms(torque)) continue;
+    if (inertial < Limits().least_inertial * size) continue;
     const MatrixXd columns = all.columns[j](moving, Eigen::all);
     const VectorXd x = columns.completeOrthogonalDecomposition().solve(torque);
     const double left = Rms(torque - columns * x);
     ++told;
-    worst = std::max(worst, left / inertial);
+    worst = std::max(worst, left / std::min(inertial, size));
   }
   if (told == 0 || worst > Limits().position_only) return {};
   char evidence[200];
   std::snprintf(evidence, sizeof evidence,
-                "a law of position alone leaves at most %.1f %% of the torque "
-                "that the recorded accelerations need",
+                "a law of position alone leaves at most %.1f %% of the torque, "
+                "and of what the recorded accelerations need",
                 100 * worst);
   return {{"the torque was computed from the positions, not measured", evidence,
            "log the motors' currents or measured torque"}};

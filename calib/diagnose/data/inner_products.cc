@@ -1,5 +1,7 @@
 #include "calib/diagnose/data/inner_products.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "model/simd/kernels.h"
@@ -48,20 +50,22 @@ MatrixXd InnerProducts(const Columns& a, const Columns& b) {
 }
 
 // Blocks of columns, each with those before it and its own; the products of
-// later columns with earlier ones are the same numbers.
+// later columns with earlier ones are the same numbers. Blocks are independent
+// of each other, so that threads share them.
 MatrixXd InnerProductsWithLast(const Columns& a, Index count) {
   constexpr Index kBlock = 96;
   const Index before = a.cols() - count;
   MatrixXd products(a.cols(), count);
   if (products.size() == 0) return products;
-  for (Index begin = 0; begin < count; begin += kBlock) {
+  tbb::parallel_for(Index{0}, (count + kBlock - 1) / kBlock, [&](Index block) {
+    const Index begin = block * kBlock;
     const Index size = std::min(kBlock, count - begin);
     const Index end = before + begin + size;
     products.block(0, begin, end, size) =
         OfWholeRows(a, end, a, before + begin, size);
     products.block(before + begin, 0, size, begin) =
         products.block(before, begin, begin, size).transpose();
-  }
+  });
   const Index rest = a.rows() - WholeGroups(a.rows());
   products +=
       a.bottomRows(rest).transpose() * a.rightCols(count).bottomRows(rest);

@@ -1,6 +1,7 @@
 #include "calib/diagnose/data/screen.h"
 
 #include <glog/logging.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -140,6 +141,34 @@ GapScreen::ArmShare GapScreen::ProjectOnArm(int joint, int before) {
   return share;
 }
 
+// Sums the joints' shares into what is of all of them, some columns each to a
+// thread, the joints in their order.
+void GapScreen::AddShares(const std::vector<ArmShare>& shares, int before,
+                          MatrixXd* G) {
+  constexpr int kTogether = 64;
+  tbb::parallel_for(
+      tbb::blocked_range<int>(before, size(), kTogether),
+      [&](const tbb::blocked_range<int>& some) {
+        for (int j = 0; j < num_joints(); ++j) {
+          const ArmShare& share = shares[j];
+          const std::vector<int>& columns = products_[j].columns;
+          const std::vector<int>& which = baseline_.rows(j).columns.which;
+          const Eigen::Index known = share.gram.rows() - share.gram.cols();
+          for (auto at = std::lower_bound(columns.begin() + known,
+                                          columns.end(), some.begin());
+               at != columns.end() && *at < some.end(); ++at) {
+            const Eigen::Index k = at - columns.begin() - known;
+            const int c = *at;
+            G->col(c - before)(columns) += share.gram.col(k);
+            cross_.col(c)(which) += share.cross.col(k);
+            common_half_.col(c) += share.common.col(k);
+            raw_[c] += share.raw[k];
+            g_[c] += share.g[k];
+          }
+        }
+      });
+}
+
 // Candidates projected on what the baseline cannot absorb (Frisch and Waugh
 // 1933): with A the baseline's columns and C the candidates',
 //   G = C' C - C' A (A' A)^-1 A' C,   g = C' r - C' A (A' A)^-1 A' r,
@@ -169,20 +198,7 @@ void GapScreen::Project(int before) {
   std::vector<ArmShare> shares(num_joints());
   tbb::parallel_for(0, num_joints(),
                     [&](int j) { shares[j] = ProjectOnArm(j, before); });
-  for (int j = 0; j < num_joints(); ++j) {
-    const ArmShare& share = shares[j];
-    const std::vector<int>& columns = products_[j].columns;
-    const std::vector<int>& which = baseline_.rows(j).columns.which;
-    const Eigen::Index known = share.gram.rows() - share.gram.cols();
-    for (Eigen::Index k = 0; k < share.gram.cols(); ++k) {
-      const int c = columns[known + k];
-      G.col(c - before)(columns) += share.gram.col(k);
-      cross_.col(c)(which) += share.cross.col(k);
-      common_half_.col(c) += share.common.col(k);
-      raw_[c] += share.raw[k];
-      g_[c] += share.g[k];
-    }
-  }
+  AddShares(shares, before, &G);
   const MatrixXd common = factor.HalfOfCommon(common_half_.rightCols(more));
   common_half_.rightCols(more) = common;
   G -= InnerProductsWithLast(common_half_, more);

@@ -153,6 +153,8 @@ class GapScreen {
     Eigen::VectorXd raw, g;  // as raw_ and g_
   };
   ArmShare ProjectOnArm(int joint, int before);
+  void AddShares(const std::vector<ArmShare>& shares, int before,
+                 Eigen::MatrixXd* G);
 
   BaselineFit baseline_;
   std::vector<Column> columns_;     // as if no rows were weighed

@@ -10,6 +10,7 @@
 namespace armcal {
 namespace {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kBins = 10;
@@ -33,6 +34,26 @@ double ChiSquaredOfBins(const VectorXd& x, const VectorXd& y) {
 }
 
 }  // namespace
+
+JointCourse JointCourseOf(const GapFit& fit, int j) {
+  const GapRows& rows = fit.rows();
+  std::vector<MatrixXd> fine;
+  for (size_t s = 0; s < rows.segments().size(); ++s) {
+    const Motion& motion = rows.segments()[s].motion;
+    fine.emplace_back(motion.size(), 5);
+    fine.back() << motion.q.col(j), motion.qd.col(j), motion.qdd.col(j),
+        fit.data()->torques()[s].load().col(j),
+        VectorXd::LinSpaced(motion.size(), motion.time(0),
+                            motion.time(motion.size() - 1));
+  }
+  const MatrixXd at = rows.PickAll(fine)(rows.SampleOfRow(j), Eigen::all);
+  return {fit.screen().Residual(j, {}),
+          at.col(0),
+          at.col(1),
+          at.col(2),
+          at.col(3),
+          at.col(4)};
+}
 
 // Residuals are ordered by a coordinate where means over its quantiles are not
 // zero:

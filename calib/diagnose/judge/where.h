@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <string>
 
+#include "calib/diagnose/select/fit.h"
+
 namespace armcal {
 
 // What one joint did at each sample of its residual.
@@ -14,6 +16,10 @@ struct JointCourse {
   Eigen::VectorXd load;          // N m or N
   Eigen::VectorXd time;          // s
 };
+
+// Of a fit's training logs, the residual being the refitted model's without
+// effects.
+JointCourse JointCourseOf(const GapFit& fit, int joint);
 
 // The coordinate that orders a residual most, in ten bins of equally many
 // samples: "velocity", "speed", "position", "acceleration", "load",

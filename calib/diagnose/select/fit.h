@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "calib/diagnose/candidates/refinement.h"
@@ -25,6 +26,13 @@ class GapFit {
  public:
   GapFit(const GapBaseline& baseline, const GapFitOptions& options,
          std::vector<GapSegment> training, std::vector<GapSegment> reference);
+
+  // Candidates whose torques are known, for another fit to the same segments,
+  // which takes them before it chooses; this one is of no more use.
+  std::vector<GapCandidate> TakeEvaluated() { return pool_.TakeEvaluated(); }
+  void Reuse(std::vector<GapCandidate> evaluated) {
+    pool_.Reuse(std::move(evaluated));
+  }
 
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/motion_scale.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/selection.h"
 
@@ -127,6 +128,11 @@ void CandidatePool::Evaluate(std::vector<GapCandidate>* candidates) {
   EvaluateCandidates(regression_.baseline(), regression_.rows(),
                      regression_.scale(), regression_.data()->torques(),
                      candidates);
+}
+
+std::vector<GapCandidate> CandidatePool::TakeEvaluated() {
+  Forget();
+  return std::move(evaluated_);
 }
 
 void CandidatePool::Forget() {

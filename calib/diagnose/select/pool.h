@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
@@ -24,6 +25,13 @@ class CandidatePool {
   // Does without this candidate's effect at its place, in any shape and size,
   // until all are listed again.
   void Bar(int candidate);
+
+  // Those that were listed, for another pool of the same rows, whose List()
+  // takes torques from them; nothing else may be asked of this one afterwards.
+  std::vector<GapCandidate> TakeEvaluated();
+  void Reuse(std::vector<GapCandidate> evaluated) {
+    evaluated_ = std::move(evaluated);
+  }
 
   const std::vector<GapCandidate>& candidates() const { return candidates_; }
   // Those (indices) with their linear parameters, fitted together.

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/noise.h"

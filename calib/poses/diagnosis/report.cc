@@ -130,6 +130,16 @@ std::string GapText(const PoseGap& gap) {
                  gap.stretches_after);
 }
 
+// Where every sixth pose is predicted and a sixth of the order at a time is
+// not, what explains the poses shows in one stretch of them alone. Twice the
+// distance is four times the square, which six parts of noise do not differ by.
+std::string UnpredictedText(const PoseGap& gap) {
+  if (!(gap.stretches_after > 2 * gap.held_out_after)) return "";
+  return "  a stretch of poses is not predicted by the others (" +
+         InMillimetres(gap.stretches_after) +
+         "): what explains it is seen there alone\n";
+}
+
 std::string LeftText(const PoseMeasurements& measured,
                      const PoseDiagnosis& diagnosis) {
   const PoseMisfit& misfit = diagnosis.misfit;
@@ -145,6 +155,7 @@ std::string LeftText(const PoseMeasurements& measured,
   }
   text += Format("\n  successive poses correlate by %.2f +- %.2f\n",
                  misfit.order_correlation, misfit.order_stddev);
+  text += UnpredictedText(diagnosis.gap);
   if (!diagnosis.unconfirmed.empty()) {
     text += "  held-out poses do not confirm " + diagnosis.unconfirmed + "\n";
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/rows.h"
 #include "model/effects/effects.h"
