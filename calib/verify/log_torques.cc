@@ -6,11 +6,11 @@
 
 #include "calib/logs/drawn_torques.h"
 #include "calib/logs/torque_residual.h"
+#include "calib/verify/arm_engine.h"
 #include "calib/verify/arm_states.h"
 #include "calib/verify/largest_ratio.h"
 #include "model/dynamics/batch_torque_replay.h"
 #include "model/plant/simbody_arm.h"
-#include "model/text/input_error.h"
 #include "problems/identification_rows.h"
 
 namespace armcal {
@@ -28,11 +28,8 @@ struct LogPrediction {
 };
 
 std::unique_ptr<SimbodyArm> SimbodyOrNull(const Robot& robot) {
-  try {
-    return std::make_unique<SimbodyArm>(robot);
-  } catch (const InputError&) {  // VerifyDynamics() tells of it
-    return nullptr;
-  }
+  if (!MakeArmEngine(robot).is_simbody) return nullptr;
+  return std::make_unique<SimbodyArm>(robot);
 }
 
 // Predicts a robot's torques along logs, twice: Simbody's inverse dynamics of
