@@ -10,6 +10,7 @@ inline constexpr double kSmallTorque = 1e-3;
 class LargestRatio {
  public:
   void Add(double difference, double scale) {
+    if (largest_ != largest_) return;
     const double ratio = difference == 0 ? 0 : difference / scale;
     if (!(ratio <= largest_)) largest_ = ratio;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "calib/verify/simbody_rollouts.h"
@@ -144,9 +143,10 @@ class Roller {
     for (const Target& target : targets_) indices.push_back(target.index);
     const double samples = (trajectory.core_end - trajectory.core_begin) *
                            trajectory.dt / time_bases_[log].dt;
-    const std::vector<SimbodyAnswer> answers =
-        simbody_->Run(trajectory, samples, tasks_, SpreadOrder(indices),
-                      static_cast<int>(rollouts_.size()));
+    const std::vector<SimbodyAnswer> answers = simbody_->Run(
+        trajectory, samples, tasks_, SpreadOrder(indices),
+        log == last_log_ ? 0 : static_cast<int>(rollouts_.size()));
+    last_log_ = log;
     for (size_t k = 0; k < answers.size(); ++k) {
       for (size_t m = 0; m < answers[k].states.size(); ++m) {
         Take(trajectory, answers[k], static_cast<int>(k), static_cast<int>(m));
@@ -167,28 +167,38 @@ class Roller {
     RolloutWindow& window = WindowOf(targets_[k]);
     window.simbody.push_back(m);
     ++rollouts.in_simbody;
-    if (answer.states[m] == State::kEndedEarly) return;
-    Compare(trajectory, answer.simulated[m].q, k, m);
+    Compare(trajectory, answer, k, m);
+    if (answer.states[m] == State::kLost) {
+      window.q.row(m).setConstant(kNeverLost);
+      window.qd.row(m).setConstant(kNeverLost);
+      return;
+    }
     const int first = tasks_[k].first;
     window.q.row(m) = RmsFrom(answer.simulated[m].q, trajectory.q, first);
     window.qd.row(m) = RmsFrom(answer.simulated[m].qd, trajectory.qd, first);
   }
 
-  // How far Simbody's positions are from ours. Unstable motion makes the errors
-  // of ours grow too: where they differ ours are computed again, a thousand
-  // times as exactly, so that what is left is a difference of the models; where
-  // that takes too small a step, nothing can be said of this window.
-  void Compare(const Trajectory& trajectory, const MatrixXd& simbody_q, int k,
+  // How far Simbody's positions are from ours; infinitely where it is lost and
+  // ours are not. Unstable motion makes the errors of ours grow too: where they
+  // differ ours are computed again, a thousand times as exactly, so that what
+  // is left is a difference of the models; where that takes too small a step,
+  // nothing can be said of this window.
+  void Compare(const Trajectory& trajectory, const SimbodyAnswer& answer, int k,
                int m) {
     const WindowTask& task = tasks_[k];
     if (task.own_q[m].size() == 0) return;
-    double difference = (simbody_q - task.own_q[m]).cwiseAbs().maxCoeff();
+    const bool lost = answer.states[m] == SimbodyAnswer::State::kLost;
+    const auto from = [&](const MatrixXd& own) {
+      return lost ? kNeverLost
+                  : (answer.simulated[m].q - own).cwiseAbs().maxCoeff();
+    };
+    double difference = from(task.own_q[m]);
     if (difference > options_.tolerance) {
       const ReplayedWindow finer =
           replays_[m].Run(trajectory, {task.first}, task.length, *coulomb_[m],
                           options_.tolerance / 1000)[0];
       if (!finer.finished) return;
-      difference = (simbody_q - finer.q).cwiseAbs().maxCoeff();
+      difference = from(finer.q);
     }
     Rollouts& rollouts = rollouts_[targets_[k].rollouts];
     ++rollouts.compared;
@@ -205,6 +215,7 @@ class Roller {
   std::vector<Rollouts> rollouts_;
   std::vector<WindowTask> tasks_;  // of the stretch, lengths in turn
   std::vector<Target> targets_;    // of these
+  int last_log_ = -1;              // that Simbody was asked of
 };
 
 double RmsOver(const Eigen::RowVectorXd& rms, const std::vector<int>& joints) {

@@ -14,7 +14,7 @@ struct RolloutOptions {
   // To which windows are simulated, rad (m), and 100 times that in rad/s (m/s).
   double tolerance = 1e-5;
   // How long Simbody may simulate windows, s by the clock; each length has one
-  // in each stretch of a log however short that is. Infinite: all of them;
+  // in each log however short that is. Infinite: all of them;
   // none: no window is simulated in Simbody.
   std::optional<double> simbody_s;
   Progress progress;

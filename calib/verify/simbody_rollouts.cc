@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <numeric>
 
 #include "calib/verify/arm_engine.h"
@@ -19,11 +20,11 @@ using Clock = std::chrono::steady_clock;
 // from ours it is done again, more exactly. With 4000 steps all windows of the
 // calibrated UR10e, Panda, KR300 and LWA 4P come to their end; light wrists
 // with dry friction would take ten times that, and all of the time there is.
-struct Effort {
+struct IntegratorLimits {
   double tolerance;
   long steps;
 };
-constexpr Effort kEfforts[] = {{1e-8, 4000}, {1e-11, 15'000}};
+constexpr IntegratorLimits kLimits[] = {{1e-8, 4000}, {1e-11, 15'000}};
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -53,6 +54,20 @@ struct SimbodyRollouts::Engine {
   Engine(const RolloutModel& model, std::unique_ptr<ArmDynamics> arm)
       : links(std::move(arm)),
         replay(model.robot, model.transitions, links.get()) {}
+
+  // As TorqueReplay::Run. Simbody throws where a massless tip has driven the
+  // state out of what it can compute: then it does not finish.
+  Integration Run(const Trajectory& trajectory, int first, int length,
+                  const Eigen::VectorXd& coulomb,
+                  const IntegrationOptions& options) {
+    try {
+      return replay.Run(trajectory, first, first + length, coulomb, options);
+    } catch (const std::exception& error) {
+      Integration failed;
+      failed.reason = error.what();
+      return failed;
+    }
+  }
 
   std::unique_ptr<ArmDynamics> links;
   TorqueReplay replay;
@@ -92,16 +107,15 @@ SimbodyAnswer SimbodyRollouts::Simulate(
   for (size_t m = 0; m < models_.size(); ++m) {
     if ((*engines)[m] == nullptr) continue;
     const bool ended_early = task.own_q[m].size() == 0;
-    for (const Effort& effort : kEfforts) {
+    for (const IntegratorLimits& limits : kLimits) {
       IntegrationOptions options;
-      options.relative = options.absolute = effort.tolerance;
-      options.max_steps = effort.steps;
-      const Integration run = (*engines)[m]->replay.Run(
-          trajectory, task.first, task.first + task.length, task.coulomb[m],
-          options);
-      answer.states[m] = run.finished  ? State::kDone
-                         : ended_early ? State::kEndedEarly
-                                       : State::kUnfinished;
+      options.relative = options.absolute = limits.tolerance;
+      options.max_steps = limits.steps;
+      const Integration run = (*engines)[m]->Run(
+          trajectory, task.first, task.length, task.coulomb[m], options);
+      answer.states[m] = run.finished ? State::kDone
+                         : run.lost   ? State::kLost
+                                      : State::kUnfinished;
       if (!run.finished) break;
       answer.simulated[m] = {run.x.leftCols(n), run.x.middleCols(n, n)};
       if (ended_early ||

@@ -29,8 +29,8 @@ struct SimbodyAnswer {
   enum class State {
     kNotAsked,
     kDone,
-    kEndedEarly,  // as ours did
-    kUnfinished,  // ours came to its end
+    kLost,        // it left the log by 100 rad or 10 m
+    kUnfinished,  // it took more steps than it may, or could not go on
   };
   std::vector<State> states;
   std::vector<SimulatedWindow> simulated;  // where it is done
@@ -68,8 +68,9 @@ class SimbodyRollouts {
 };
 
 // An order of tasks in which each beginning is evenly spread over all of them:
-// by the digits of their index read backwards (van der Corput 1935), all
-// lengths in turn. `indices`: of each task among those of its length.
+// by the digits of their index read backwards (van der Corput 1935), each
+// length in proportion to its windows. `indices`: of each task among those of
+// its length.
 std::vector<int> SpreadOrder(const std::vector<int>& indices);
 
 }  // namespace armcal

@@ -32,6 +32,7 @@ json FigureJson(const RolloutFigure& figure) {
 // The same windows by Simbody and by ours, medians of rms errors.
 json EnginesJson(const RolloutComparison& c) {
   json out = {{"windows", c.before_by_engine.windows},
+              {"before_windows", c.before_by_engine.windows},
               {"before_rms", JsonNumber(c.before_by_engine.simbody)},
               {"own_before_rms", JsonNumber(c.before_by_engine.own)}};
   if (c.after_by_engine) {
@@ -131,9 +132,12 @@ json ToJson(const VerificationReport& report) {
         {"of", report.rollouts->simulations},
         {"unfinished", report.rollouts->unfinished_in_simbody},
         {"compared", report.rollouts->compared},
-        {"max_difference", report.rollouts->simbody_difference}};
+        {"max_difference", JsonNumber(report.rollouts->compared > 0
+                                          ? report.rollouts->simbody_difference
+                                          : std::nan(""))}};
   }
   if (report.log_torques) {
+    out["log_torque_max_rel"] = JsonNumber(report.log_torques->max_rel);
     out["log_torques"] = LogTorquesJson(*report.log_torques);
   }
   if (report.closed_loop) {

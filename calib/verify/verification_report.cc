@@ -26,8 +26,8 @@ std::string CheckTitle(const std::string& name) {
   return name;
 }
 
-// The torque along the logs is compared where there is a sample, and Simbody
-// takes the robot: else a reason has said why not.
+// The torque along the logs is compared where there is a sample and Simbody
+// takes the robot.
 VerificationCheck LogTorqueCheck(const LogTorques& torques) {
   return {"log_torque_max_rel", torques.max_rel, LogTorques::kMostRel, true};
 }

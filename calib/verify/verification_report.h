@@ -32,8 +32,8 @@ struct VerificationReport {
   // not farther from the log than the file's: the lower end of their ratio's
   // interval is at most 1. One length only, so that a good calibration is
   // refused by chance at most once in 40 for each unit of joints. Not judged
-  // with less than ten blocks of windows (rollout.h), nor where the errors are
-  // the integration's.
+  // with less than ten blocks of windows (rollout_figures.h), nor where the
+  // errors are the integration's.
   std::vector<VerificationCheck> Checks() const;
   // Sentences, one for each thing that is wrong.
   std::vector<std::string> Shortcomings() const;

@@ -34,6 +34,7 @@ class Integrator {
 
   const State& state() const { return x_; }
   long steps() const { return steps_; }
+  bool lost() const { return lost_; }
 
   // Empty, or why it does not get to `end`.
   std::string AdvanceTo(double end) {
@@ -49,7 +50,8 @@ class Integrator {
       }
       if (last) t_ = end;
       if (++steps_ > options_.max_steps) return TooManyText();
-      if (IsLost()) return "lost at t = " + std::to_string(t_) + " s";
+      lost_ = IsLost();
+      if (lost_) return "lost at t = " + std::to_string(t_) + " s";
     }
     return "";
   }
@@ -105,6 +107,7 @@ class Integrator {
   double step_ = 1e-3;  // s; adapts itself
   long steps_ = 0;
   long tries_ = 0;  // steps that were not taken
+  bool lost_ = false;
   VectorXd state_, derivative_;
 };
 
@@ -128,6 +131,7 @@ Integration Integrate(const StateRate& rate, const VectorXd& x0, double t0,
   }
   result.x.conservativeResize(row, Eigen::NoChange);
   result.steps = integrator.steps();
+  result.lost = integrator.lost();
   result.finished = result.reason.empty();
   return result;
 }

@@ -23,6 +23,7 @@ struct IntegrationOptions {
 struct Integration {
   bool finished = false;
   std::string reason;  // why it did not finish
+  bool lost = false;   // whether that is IntegrationOptions::is_lost
   // The state at every output time that was reached, in rows.
   Eigen::MatrixXd x;
   long steps = 0;  // accepted

@@ -72,9 +72,9 @@ double Rms(const VectorXd& x) {
 // measured torque leaves at least what the links need to accelerate. Joints
 // that hardly accelerate cannot tell (least_inertial). Of a torque that is
 // small beside what the file's links would need (another joint's positions, a
-// mass that is far off) the law has to explain its part too, since any torque
-// leaves less than that. The worst joint decides, since one that was measured
-// is enough.
+// mass that is far off) the law has to explain its part too: else one that
+// explains nothing would do, as what it leaves is the torque at most. The worst
+// joint decides, since one that was measured is enough.
 std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
   const StaticRegression all = Prepare(robot, rows);
   int told = 0;

@@ -130,7 +130,7 @@ const std::vector<ThresholdInfo> kAll = {
      "Left out on both sides, per power of ten", Kind::kTuned,
      "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
      "641418970"},
-    {"position_only", &T::position_only, "inertial torque",
+    {"position_only", &T::position_only, "torque",
      "Torque that a law of position alone leaves less of was computed, "
      "not measured",
      Kind::kTuned, "handguided log of a pendulum, and logs with torques"},

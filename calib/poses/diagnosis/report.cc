@@ -137,7 +137,7 @@ std::string UnpredictedText(const PoseGap& gap) {
   if (!(gap.stretches_after > 2 * gap.held_out_after)) return "";
   return "  a stretch of poses is not predicted by the others (" +
          InMillimetres(gap.stretches_after) +
-         "): what explains it is seen there alone\n";
+         "): what explains it may be seen there alone\n";
 }
 
 std::string LeftText(const PoseMeasurements& measured,

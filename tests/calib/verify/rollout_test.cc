@@ -140,11 +140,39 @@ TEST_F(RolloutLogs, DivergedWindowsAreCounted) {
   Robot wild = truth_;
   wild.links[2].inertial = {};
   wild.links[2].joint.armature = 0;
-  const Rollouts r = Run({truth_, wild})[0];
-  EXPECT_EQ(r.NumDiverged(0), 0);
-  EXPECT_EQ(r.NumDiverged(1), 50);
-  EXPECT_EQ(MedianError(r, 1, {0}, 1).value, kInfinity);
-  EXPECT_LT(MedianError(r, 0, {0}, 1).value, 1e-4);
+  RolloutOptions in_simbody;
+  in_simbody.simbody_s = kInfinity;
+  for (const RolloutOptions& options : {RolloutOptions(), in_simbody}) {
+    const Rollouts r = Run({truth_, wild}, options)[0];
+    EXPECT_EQ(r.NumDiverged(0), 0);
+    EXPECT_EQ(r.NumDiverged(1), 50);
+    EXPECT_EQ(MedianError(r, 1, {0}, 1).value, kInfinity);
+    EXPECT_LT(MedianError(r, 0, {0}, 1).value, 1e-4);
+    // By neither engine: there is nothing to compare.
+    EXPECT_EQ(r.compared, options.simbody_s ? 50 : 0);
+    EXPECT_LT(r.simbody_difference, 1e-5);
+  }
+}
+
+// Simbody is asked of a window that ours, as told here, does not leave; it
+// leaves the log, which is not for want of steps.
+TEST(SimbodyRollouts, SaysThatARobotIsLost) {
+  std::mt19937_64 random(3);
+  Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  Trajectory t;
+  t.dt = .01;
+  t.q = t.qd = t.qdd = MatrixXd::Zero(101, 3);
+  t.tau = MatrixXd::Constant(101, 3, 1e4);  // N m
+  t.core_end = 101;
+  const std::vector<RolloutModel> models = {
+      {robot, std::vector<CoulombTransition>(3)}};
+  RolloutOptions options;
+  options.simbody_s = kInfinity;
+  const WindowTask task{0, 100, {VectorXd::Zero(3)}, {MatrixXd::Zero(100, 3)}};
+  SimbodyRollouts simbody(models, options, 101);
+  const auto answers = simbody.Run(t, 101, {task}, {0}, 1);
+  EXPECT_EQ(answers[0].states[0], SimbodyAnswer::State::kLost);
 }
 
 // The integration's error is far below what is measured.

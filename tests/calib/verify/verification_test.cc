@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/verify/largest_ratio.h"
 #include "model/plant/simbody_arm.h"
 #include "model/text/input_error.h"
 #include "tests/fixtures/sample_motion.h"
@@ -23,6 +24,15 @@ void ExpectPassed(const Verification& result) {
   for (const VerificationCheck& check : result.Checks()) {
     EXPECT_TRUE(check.passed()) << check.name << " " << check.value;
   }
+}
+
+TEST(LargestRatio, KeepsWhatIsNotANumber) {
+  LargestRatio largest;
+  largest.Add(1, 4);
+  EXPECT_EQ(largest.value(), .25);
+  largest.Add(std::nan(""), 1);
+  largest.Add(.5, 1);
+  EXPECT_TRUE(std::isnan(largest.value()));
 }
 
 // Prismatic joints, a tilted base and a tool among them.

@@ -1,5 +1,6 @@
 #include "calib/diagnose/candidates/candidate_torques.h"
 
+#include <glog/logging.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,11 +61,13 @@ TEST(CandidateTorques, OfJointsWithTheSameTermsServeAnotherRobot) {
   EXPECT_EQ(WithSameTorques(arm.robot, arm.robot, arm.scale, first).size(),
             first.size());
   const auto in_second = [&second](const GapCandidate& one) {
-    return *std::find_if(second.begin(), second.end(),
-                         [&one](const GapCandidate& other) {
-                           return SamePlace(one, other) && one.p == other.p &&
-                                  one.size == other.size;
-                         });
+    const auto same = std::find_if(
+        second.begin(), second.end(), [&one](const GapCandidate& other) {
+          return SamePlace(one, other) && one.p == other.p &&
+                 one.size == other.size;
+        });
+    CHECK(same != second.end());
+    return *same;
   };
   for (const GapCandidate& one : kept) {  // what is integrated is right to 1e-9
     EXPECT_EQ(one.joint, 1);
