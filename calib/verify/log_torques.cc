@@ -6,6 +6,7 @@
 
 #include "calib/logs/drawn_torques.h"
 #include "calib/logs/torque_residual.h"
+#include "calib/numerics/append_rows.h"
 #include "calib/verify/arm_engine.h"
 #include "calib/verify/arm_states.h"
 #include "calib/verify/largest_ratio.h"
@@ -103,12 +104,6 @@ double LargestDifference(const LogPrediction& predicted) {
   return largest.value();
 }
 
-void AppendSamples(const MatrixXd& rows, MatrixXd* all) {
-  const Eigen::Index before = all->rows();
-  all->conservativeResize(before + rows.rows(), rows.cols());
-  all->bottomRows(rows.rows()) = rows;
-}
-
 }  // namespace
 
 LogTorques CompareLogTorques(const Robot& file,
@@ -128,12 +123,12 @@ LogTorques CompareLogTorques(const Robot& file,
   int last_log = -1;
   logs.ForEach("torques", progress, [&](int log, const Trajectory& t) {
     const std::vector<int> rows = even.In(log, t);
-    AppendSamples(t.tau(rows, Eigen::all), &recorded);
+    AppendRows(t.tau(rows, Eigen::all), &recorded);
     for (size_t m = 0; m < predictors.size(); ++m) {
       if (log != last_log) predictors[m].StartLog();
       const LogPrediction part = predictors[m].Predict(t, rows);
-      AppendSamples(part.simbody, &predicted[m].simbody);
-      AppendSamples(part.own, &predicted[m].own);
+      AppendRows(part.simbody, &predicted[m].simbody);
+      AppendRows(part.own, &predicted[m].own);
     }
     last_log = log;
   });

@@ -243,6 +243,11 @@ double RolloutWindow::VelocityError(int model,
   return RmsOver(qd.row(model), joints);
 }
 
+double RolloutWindow::OwnError(int model,
+                               const std::vector<int>& joints) const {
+  return RmsOver(own_q.row(model), joints);
+}
+
 int Rollouts::NumDiverged(int model) const {
   return static_cast<int>(std::count_if(
       windows.begin(), windows.end(),

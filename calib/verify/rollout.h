@@ -26,6 +26,8 @@ struct RolloutWindow {
   // rms of positions and of velocities over joints of one unit.
   double Error(int model, const std::vector<int>& joints) const;
   double VelocityError(int model, const std::vector<int>& joints) const;
+  // Of positions by our own dynamics.
+  double OwnError(int model, const std::vector<int>& joints) const;
 };
 
 // Windows side by side, of one length.

@@ -10,17 +10,6 @@ namespace {
 
 constexpr double kIntegrated = 1e-5;  // rad, m: of RolloutOptions::tolerance
 
-// A model's errors by either engine, where Simbody simulated it.
-EngineErrors ErrorsByEngine(const Rollouts& rollouts, int model,
-                            const std::vector<int>& joints,
-                            std::uint64_t seed) {
-  const auto median = [&](RolloutEngine engine) {
-    return MedianError(InSimbody(rollouts, model, engine), model, joints, seed);
-  };
-  const RolloutFigure simbody = median(RolloutEngine::kSimbody);
-  return {simbody.windows, simbody.value, median(RolloutEngine::kOwn).value};
-}
-
 // Medians over windows, since a window in which the arm is unstable or touches
 // something has an error as large as one likes.
 RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
@@ -34,13 +23,13 @@ RolloutComparison Compare(const Robot& robot, const Rollouts& rollouts,
   c.standstill = rollouts.standstill;
   c.before_diverged = rollouts.NumDiverged(0);
   c.before = MedianError(rollouts, 0, joints, seed);
-  c.before_by_engine = ErrorsByEngine(rollouts, 0, joints, seed);
+  c.before_by_engine = MedianErrorsByEngine(rollouts, 0, joints);
   c.before_velocity_rms = MedianVelocityError(rollouts, 0, joints);
   c.after_velocity_rms = kNaN;
   if (calibrated) {
     c.after_diverged = rollouts.NumDiverged(1);
     c.after = MedianError(rollouts, 1, joints, seed);
-    c.after_by_engine = ErrorsByEngine(rollouts, 1, joints, seed);
+    c.after_by_engine = MedianErrorsByEngine(rollouts, 1, joints);
     c.ratio = MedianRatio(rollouts, 1, 0, joints, seed);
     c.after_velocity_rms = MedianVelocityError(rollouts, 1, joints);
   }

@@ -19,12 +19,6 @@ struct JointRollout {
   double after_rms;   // NaN without a calibration
 };
 
-// The same windows by Simbody's dynamics and by ours: medians of rms errors.
-struct EngineErrors {
-  int windows = 0;      // in which Simbody simulated the robot
-  double simbody, own;  // rad or m; NaN without windows
-};
-
 // The windows that say which robot is nearer to the log, s.
 constexpr double kJudgedWindow = 0.5;
 

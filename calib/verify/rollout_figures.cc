@@ -56,14 +56,16 @@ double MedianOf(const std::vector<double>& errors,
 
 }  // namespace
 
-Rollouts InSimbody(const Rollouts& rollouts, int model, RolloutEngine engine) {
-  Rollouts part{rollouts.window_s, {}};
+EngineErrors MedianErrorsByEngine(const Rollouts& rollouts, int model,
+                                  const std::vector<int>& joints) {
+  std::vector<double> simbody, own;
   for (const RolloutWindow& window : rollouts.windows) {
     if (!window.in_simbody(model)) continue;
-    part.windows.push_back(window);
-    if (engine == RolloutEngine::kOwn) part.windows.back().q = window.own_q;
+    simbody.push_back(window.Error(model, joints));
+    own.push_back(window.OwnError(model, joints));
   }
-  return part;
+  return {static_cast<int>(own.size()), InterpolatedMedian(std::move(simbody)),
+          InterpolatedMedian(std::move(own))};
 }
 
 std::vector<int> JointsWithUnit(const Robot& robot, const std::string& unit) {

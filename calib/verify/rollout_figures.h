@@ -33,9 +33,12 @@ double MedianVelocityError(const Rollouts& rollouts, int model,
 RolloutFigure MedianRatio(const Rollouts& rollouts, int a, int b,
                           const std::vector<int>& joints, std::uint64_t seed);
 
-// The windows in which Simbody simulated a model, with the positions' errors by
-// it or by our own dynamics.
-enum class RolloutEngine { kSimbody, kOwn };
-Rollouts InSimbody(const Rollouts& rollouts, int model, RolloutEngine engine);
+// The same windows by Simbody's dynamics and by ours: medians of rms errors.
+struct EngineErrors {
+  int windows = 0;      // in which Simbody simulated the robot
+  double simbody, own;  // rad or m; NaN without windows
+};
+EngineErrors MedianErrorsByEngine(const Rollouts& rollouts, int model,
+                                  const std::vector<int>& joints);
 
 }  // namespace armcal

@@ -76,10 +76,6 @@ void Evaluate(const std::vector<TorqueOf>& torques, const GapBaseline& baseline,
   }
 }
 
-}  // namespace
-
-namespace {
-
 // Whether its torque depends on the terms of its own joint at most. What a
 // drive or a sensor makes of torques is a function of all of a torque, and may
 // be one of another joint's.

@@ -9,6 +9,7 @@
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/linear/calibration_checks.h"
 #include "calib/logs/position_noise.h"
+#include "calib/numerics/append_rows.h"
 #include "model/signals/low_pass.h"
 #include "model/signals/standstill.h"
 #include "model/text/input_error.h"
@@ -26,12 +27,6 @@ constexpr double kSmoothTemperatureHz = .2;
 // Of errors of stamps, which are known every second.
 constexpr double kSmoothStampHz = .3;
 constexpr double kMotionBandwidth = 5;  // of the torque's
-
-void AppendRows(const MatrixXd& rows, MatrixXd* to) {
-  const Eigen::Index before = to->rows();
-  to->conservativeResize(before + rows.rows(), rows.cols());
-  to->bottomRows(rows.rows()) = rows;
-}
 
 void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
   const int begin = trajectory.core_begin;
