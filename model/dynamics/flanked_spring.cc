@@ -26,12 +26,10 @@ double FlankedSpring::operator()(double deflection, double rate, const double*,
     const double stiffer = stiffening * deflection * deflection;
     return stiffness * deflection * (1 + stiffer) + damping * rate;
   }
-  const double w = kRounding * gap;
-  const Corner ahead = CornerAt((deflection - gap / 2) / w);
-  const Corner behind = CornerAt((-deflection - gap / 2) / w);
-  const double pressed = w * (ahead.value - behind.value);
-  const double touching = ahead.slope + behind.slope;
-  return stiffness * pressed + damping * touching * rate;
+  const double side = deflection < 0 ? -1 : 1, w = kRounding * gap;
+  const Corner at = CornerAt(side * deflection / w - .5 / kRounding);
+  return side * std::max(0., stiffness * w * at.value +
+                                 damping * at.slope * side * rate);
 }
 
 }  // namespace armcal

@@ -2,16 +2,18 @@
 
 namespace armcal {
 
-// The law of a transmission (simulated_robot.h): a spring and a damper between
-// flanks that leave a gap, in which there is neither; the gap's corners are
-// rounded. Without a gap, of any size, it is a damper and a spring that may
-// stiffen, stiffness d (1 + stiffening d^2), as harmonic drives do (Tuttle and
-// Seering 1996). It is a class of its own so that whoever follows deflections
-// knows it again (Transmission::torque.target) and follows many of them in
-// lanes.
+// The law of a transmission (simulated_robot.h): flanks that leave a gap
+// between them, each a spring and a damper that press and never pull. Without a
+// gap, of any size, it is a damper and a spring that may stiffen, stiffness d
+// (1 + stiffening d^2), as harmonic drives do (Tuttle and Seering 1996). It is
+// a class of its own so that whoever follows deflections knows it again
+// (Transmission::torque.target) and follows many of them in lanes.
 struct FlankedSpring {
-  // Of the gap: over this much the corners are rounded.
-  static constexpr double kRounding = .05;
+  // Of the gap: over this much its corners are rounded. It has to be small
+  // beside what flanks yield by, 7 to 25 % of the gap (effects/backlash): a
+  // flank is felt before it is reached, and a gap that was told by rounder
+  // corners, .05, was a fifth too wide.
+  static constexpr double kRounding = .002;
 
   double gap = 0;         // rad or m
   double stiffness = 0;   // N m/rad or N/m, of a flank

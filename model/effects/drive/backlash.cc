@@ -8,15 +8,12 @@ inline namespace effects {
 
 namespace {
 
-constexpr double kDampingRatio = 1;  // of a flank, with the motor held
-
 double ContactStiffness(const EffectSite& site, const Eigen::VectorXd& p) {
   return TorqueScale(site) / (p[1] * p[0]);
 }
 
 double ContactDamping(const EffectSite& site, const Eigen::VectorXd& p) {
-  return 2 * kDampingRatio *
-         std::sqrt(ContactStiffness(site, p) * CarriedInertia(site));
+  return 2 * p[2] * std::sqrt(ContactStiffness(site, p) * CarriedInertia(site));
 }
 
 Transmission DeadZone(int joint, const FlankedSpring& spring) {
@@ -35,10 +32,13 @@ Transmission DeadZone(int joint, const FlankedSpring& spring) {
 }  // namespace
 
 // A dead zone between flanks that yield: no torque while the motor is within
-// backlash / 2 of its link, k (|d| - backlash / 2) beyond (Nordin and Gutman
-// 2002), corners rounded. `yield` is the share of the gap by which flanks give
-// under the joint's usual torque: so deflections, and torques, are in
-// proportion to the gap. A simulation needs an armature of the joint.
+// backlash / 2 of its link, k (|d| - backlash / 2) + c |d|' beyond, never a
+// pull (Nordin and Gutman 2002). `yield` is the share of the gap by which
+// flanks give under the joint's usual torque: so deflections, and torques, are
+// in proportion to the gap. `damping_ratio` is that of a flank's spring with
+// the motor held; of .2 a link that strikes it bounces at about half its speed
+// (exp(-pi z / sqrt(1 - z^2)), z = .2), and when it comes back tells much of
+// the gap. A simulation needs an armature of the joint.
 Effect Backlash() {
   Effect effect;
   effect.name = "backlash";
@@ -50,9 +50,11 @@ Effect Backlash() {
           "backlash", "P",
           [](const EffectSite& site) { return .0005 * Radian(site); },
           EffectParameter::Sign::kPositive),
-      Gridded("yield", "1", [](const EffectSite&) {
-        return std::vector<double>{.07, .25};
-      })};
+      Gridded("yield", "1",
+              [](const EffectSite&) {
+                return std::vector<double>{.07, .25};
+              }),
+      Refined("damping_ratio", "1", {.02, .2, 1.5})};
   // When a gap is crossed depends on its size: neighbours look alike only when
   // they are near.
   effect.larger_sizes = GeometricGrid(std::sqrt(2), 256, 16);

@@ -5,7 +5,7 @@
 
 namespace armcal::simd::ARMCAL_INSTRUCTION_SET {
 
-constexpr double kRounding = .05;  // FlankedSpring's
+constexpr double kRounding = .002;  // FlankedSpring's
 
 ARMCAL_INLINE Lanes Largest(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
@@ -31,25 +31,24 @@ ARMCAL_INLINE SpringTorque GaplessTorqueOf(const SpringLanes& spring,
 
 ARMCAL_INLINE SpringTorque TorqueOf(const SpringLanes& spring, const Lanes& d,
                                     const Lanes& rate) {
-  constexpr double kGap = 2.06115362243855783e-9;  // exp(-1 / kRounding)
-  constexpr double kFar = 60;                      // where no corner is left
+  constexpr double kFar = 60;  // where no corner is left, nor the other flank
   const Lanes w = kRounding * spring.gap;
   const Lanes side = d < 0 ? Broadcast(-1) : Broadcast(1);
-  // The flank on this side; the other is so far that few terms are enough.
   const Lanes x = Magnitude(d) / w - .5 / kRounding;
   const Lanes away = Magnitude(x);
   const Lanes tail = ExponentialOfMinus(away < kFar ? away : Broadcast(kFar));
-  const Lanes far = x > 0 ? tail * kGap : kGap / tail;
   const Lanes share = 1 / (1 + tail);
-  const Lanes pressed = Largest(x, Lanes{}) + LogarithmOfOneAnd(tail) -
-                        far * (1 - far * (.5 - far * (1. / 3)));
-  const Lanes touching =
-      (x > 0 ? share : tail * share) + far * (1 - far * (1 - far));
-  const Lanes bend = tail * share * share - far * (1 - 2 * far);
-  const Lanes damping = spring.damping * touching;
-  return {side * spring.stiffness * w * pressed + damping * rate,
-          spring.stiffness * touching + spring.damping * rate * side * bend / w,
-          damping};
+  const Lanes pressed = Largest(x, Lanes{}) + LogarithmOfOneAnd(tail);
+  const Lanes touching = x > 0 ? share : tail * share;
+  const Lanes bend = tail * share * share;
+  const Lanes damping = spring.damping * touching, closing = side * rate;
+  const Lanes force = spring.stiffness * w * pressed + damping * closing;
+  const Integers presses = force > 0;
+  return {presses ? side * force : Lanes{},
+          presses ? spring.stiffness * touching +
+                        spring.damping * closing * bend / w
+                  : Lanes{},
+          presses ? damping : Lanes{}};
 }
 
 }  // namespace armcal::simd::ARMCAL_INSTRUCTION_SET

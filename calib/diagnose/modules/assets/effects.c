@@ -248,12 +248,10 @@ static double spring_torque(const effects_state* s, const law_t* law,
   if (law->kind == EFFECTS_ELASTICITY) {
     return p[0] * d * (1 + p[2] * d * d) + p[1] * rate;
   }
-  double touching_ahead, touching_behind;
-  const double half = p[0] / 2, w = .05 * p[0];
-  const double ahead = corner((d - half) / w, &touching_ahead);
-  const double behind = corner((-d - half) / w, &touching_behind);
-  return p[1] * w * (ahead - behind) +
-         p[2] * (touching_ahead + touching_behind) * rate;
+  double touching;
+  const double side = d < 0 ? -1 : 1, w = .002 * p[0];
+  const double pressed = corner((fabs(d) - p[0] / 2) / w, &touching);
+  return side * fmax(0, p[1] * w * pressed + p[2] * touching * side * rate);
 }
 
 static double slope_over_rate(const effects_state* s, const law_t* law) {

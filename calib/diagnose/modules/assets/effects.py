@@ -144,10 +144,9 @@ def _elasticity(d, rate, p):
 
 
 def _backlash(d, rate, p):
-    half, w = p["gap"] / 2, .05 * p["gap"]
-    ahead, behind = _corner((d - half) / w), _corner((-d - half) / w)
-    return (p["stiffness"] * w * (ahead[0] - behind[0])
-            + p["damping"] * (ahead[1] + behind[1]) * rate)
+    side, w = math.copysign(1, d), .002 * p["gap"]
+    pressed, touching = _corner((abs(d) - p["gap"] / 2) / w)
+    return side * max(0., p["stiffness"] * w * pressed + p["damping"] * touching * side * rate)
 
 
 TRANSMISSIONS = {"elasticity": _elasticity, "backlash": _backlash}
