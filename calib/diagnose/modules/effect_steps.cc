@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 constexpr double kVelocityStep = 1e-4;    // rad/s or m/s
 constexpr double kDeflectionStep = 1e-6;  // rad or m
 // Of a motor on its spring.
-constexpr double kPhasePerSubstep = .3;  // rad
+constexpr double kPhasePerSubstep = .1;  // rad
 constexpr int kMostMotorSubsteps = 100;
 
 }  // namespace

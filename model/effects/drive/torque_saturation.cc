@@ -33,18 +33,36 @@ std::vector<double> LimitsBelow(double top, double usual) {
   return GeometricGrid(lowest * top, kHighest * top, steps + 1);
 }
 
+// The motor's line between torque and speed: by Ohm's law a supply's voltage
+// less what the motor itself makes drives the largest current,
+//   limit(v) = limit (1 - fall (v / usual speed - 1)), v along the torque,
+// so that `limit` is that at the joint's usual speed; a motor that brakes has
+// more. A current limit does not fall.
+struct SpeedLine {
+  SpeedLine(const EffectSite& site, const Eigen::VectorXd& p)
+      : limit(p[1]), fall(p[3]), usual_speed(SpeedScale(site)) {}
+  double At(double velocity_along) const {
+    return std::max(Least(), AtRest() - Slope() * velocity_along);
+  }
+  double Least() const { return .01 * limit; }  // from the no-load speed on
+  double AtRest() const { return limit * (1 + fall); }
+  double Slope() const { return limit * fall / usual_speed; }
+  double limit, fall, usual_speed;
+};
+
 }  // namespace
 
 // given = commanded - share (commanded - clip(commanded, limit)), share about
-// 1: a current limit, its corner rounded over `knee` of it, as controllers and
-// iron round it. What was asked beyond it shows in recorded torque alone
-// (Motion::torque); without that the effect is invisible, and with a share far
-// from 1 it is another effect.
+// 1: a current limit, or that of a supply's voltage, which falls with speed;
+// its corner rounded over `knee` of it, as controllers and iron round it. What
+// was asked beyond it shows in recorded torque alone (Motion::torque); without
+// that the effect is invisible, and with a share far from 1 it is another
+// effect.
 Effect TorqueSaturation() {
   Effect effect;
   effect.name = "torque_saturation";
   effect.nature = Effect::Nature::kLaw;
-  effect.law = "tau = share (tau_logged - clip(tau_logged, limit))";
+  effect.law = "tau = share (tau_logged - clip(tau_logged, limit(v)))";
   effect.shows = "torques beyond the limit";
   effect.parameters = {
       Linear(
@@ -57,29 +75,52 @@ Effect TorqueSaturation() {
                     tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site),
                     TorqueScale(site));
               }),
-      Gridded("knee", "1", [](const EffectSite&) {
-        return std::vector<double>{.02, .08};
-      })};
+      Gridded("knee", "1",
+              [](const EffectSite&) {
+                return std::vector<double>{.02, .08};
+              }),
+      Refined("fall", "1", {0, 0, 3})};
   effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
-    const double share = p[0];
-    const SoftClip clip(p[1], p[2]);
-    AddActuator(
-        site,
-        [=](double commanded) {
-          return commanded - share * (commanded - clip(commanded));
-        },
-        {}, robot);
+    const double share = p[0], knee = p[2];
+    const SpeedLine line(site, p);
+    const auto given = [share](double commanded, const SoftClip& clip) {
+      return commanded - share * (commanded - clip(commanded));
+    };
+    if (line.fall == 0) {
+      const SoftClip clip(line.limit, knee);
+      AddActuator(
+          site, [=](double commanded) { return given(commanded, clip); }, {},
+          robot);
+      return;
+    }
+    const int j = site.joint;
+    robot->actuators.push_back(
+        {{},
+         [=](const ArmInstant& at, const double*, double*,
+             Eigen::VectorXd* torque) {
+           double& tau = (*torque)[j];
+           const double along = std::copysign(1, tau) * at.velocity[j];
+           tau = given(tau, SoftClip(line.At(along), knee));
+         }});
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
-    return std::vector<EffectEstimate>{{"limit", UnitAt(site, "E"), p[1]},
-                                       {"share", "1", p[0]},
-                                       {"knee", "1", p[2]}};
+    const SpeedLine line(site, p);
+    return std::vector<EffectEstimate>{
+        {"limit", UnitAt(site, "E"), line.AtRest()},
+        {"limit_slope", UnitAt(site, "E s/P"), line.Slope()},
+        {"share", "1", p[0]},
+        {"knee", "1", p[2]}};
   };
   effect.proportional = false;
-  effect.numbers = [](const EffectSite&, const Eigen::VectorXd& p) {
-    return EffectNumbers{{"share", p[0]}, {"limit", p[1]}, {"knee", p[2]}};
+  effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
+    const SpeedLine line(site, p);
+    return EffectNumbers{{"share", p[0]},
+                         {"limit", line.AtRest()},
+                         {"slope", line.Slope()},
+                         {"least", line.Least()},
+                         {"knee", p[2]}};
   };
   effect.experiment = "slow and fast accelerations of the same motion";
   return effect;

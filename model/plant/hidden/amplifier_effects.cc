@@ -74,22 +74,37 @@ HiddenEffect TorqueNonlinearity() {
 }
 
 // given = commanded / (1 + |commanded / L|^12)^(1/12): a soft knee, 6 % below
-// the limit at it.
+// the limit at it. L falls from that at the joint's speed scale S as the motor
+// turns along its torque, as far as the supply's voltage lets it,
+//   L(v) = L (1 - fall (v / S - 1)), at least a hundredth of L.
 HiddenEffect TorqueSaturation() {
-  return {"torque_saturation",
-          true,
-          Scope::kJoint,
-          "A current limit: torques beyond it are commanded but not given.",
-          {{"limit", "1", 1.6, 1.3, 2.5, Draw::kLog, .8, 13}},
-          [](const EffectSite& site) -> std::vector<EffectValue> {
-            const double L = site.p[0] * site.torque();
-            AddMap(site, [=](double tau) {
-              return tau /
-                     std::pow(1 + std::pow(std::abs(tau / L), 12), 1. / 12);
-            });
-            return {{"limit", site.effort_unit(), L}};
-          },
-          nullptr};
+  return {
+      "torque_saturation",
+      true,
+      Scope::kJoint,
+      "A limit of current, or of voltage, which falls with speed: torques "
+      "beyond it are commanded but not given.",
+      {{"limit", "1", 1.6, 1.3, 2.5, Draw::kLog, .8, 13},
+       {"fall", "1", 0, 0, 1, Draw::kUniform, 0, 3}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        const double L = site.p[0] * site.torque(), S = site.speed();
+        const double fall = site.p[1];
+        const int k = site.from_tip();
+        site.robot->actuators.push_back(
+            {{},
+             [=](const ArmInstant& at, const double*, double*,
+                 Eigen::VectorXd* torque) {
+               double& tau = FromTip(torque, k);
+               const double v = std::copysign(1, tau) * FromTip(at.velocity, k);
+               const double most = L * std::max(.01, 1 - fall * (v / S - 1));
+               tau /= std::pow(1 + std::pow(std::abs(tau / most), 12), 1. / 12);
+             }});
+        return {
+            {"limit", site.effort_unit(), L * (1 + fall)},
+            {"limit_slope", site.effort_unit() + " s/" + site.position_unit(),
+             L * fall / S}};
+      },
+      nullptr};
 }
 
 // given = commanded (1 - d / sqrt(commanded^2 + d^2)): flat at zero, d short of

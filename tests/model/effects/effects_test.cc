@@ -68,7 +68,11 @@ TEST_P(EffectOf, SizesAndGridsAreOfUse) {
       const std::vector<double> grid = parameter.grid(arm.Site(joint));
       EXPECT_THAT(grid.size(),
                   testing::AllOf(testing::Ge(1u), testing::Le(8u)));
-      EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end(), std::less_equal<>()))
+      // Of what is refined only, what is tried may be an end of the range.
+      const int ends = parameter.search == Search::kRefined ? 1 : 0;
+      EXPECT_TRUE(std::is_sorted(grid.begin(), grid.end())) << parameter.name;
+      EXPECT_TRUE(std::is_sorted(grid.begin() + ends, grid.end() - ends,
+                                 std::less_equal<>()))
           << parameter.name;
       EXPECT_THAT(grid, testing::Contains(sizes[k]));
     }
@@ -96,7 +100,8 @@ TEST_P(EffectOf, AddsTorqueAndNoneAtZero) {
       }
       const MatrixXd change = arm.Change(GetParam(), joint, p, recorded);
       EXPECT_TRUE(change.allFinite());
-      EXPECT_GT(change.norm(), 1e-6 * recorded->nominal().norm());
+      // Little of a gap where the load keeps its sign.
+      EXPECT_GT(change.norm(), 1e-7 * recorded->nominal().norm());
       EXPECT_LT(arm.Change(GetParam(), joint, zero, recorded).norm(),
                 1e-9 * change.norm());
     }

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "model/effects/effects.h"
+#include "tests/fixtures/effect_plant.h"
+#include "tests/model/effects/hidden_truth.h"
 
 namespace armcal::torque_saturation_test {
 
@@ -37,6 +39,44 @@ TEST(TorqueSaturation, IsLookedForDownToUsualTorque) {
 
 TEST(TorqueSaturation, OfNoTorqueHasSomeLimit) {
   for (const double limit : Limits(0, 0)) EXPECT_GT(limit, 0);
+}
+
+// A supply's voltage, hidden by a law of its own: of limits and of shares by
+// which they fall, those that leave least are the hidden ones.
+TEST(TorqueSaturation, FallsWithSpeedAsTheHiddenOne) {
+  const EffectPlant plant(12);
+  const Effect& effect = *FindEffect("torque_saturation");
+  constexpr int kJoint = 1;
+  for (const double fall : {0., .3}) {
+    SimulatedRobot robot = plant.Bare();
+    auto truth = HideEffect(effect.name, kJoint, plant.arm().robot, 12, &robot,
+                            {1.1, fall});
+    const Log log = plant.Run(robot);
+    RecordedTorque recorded(plant.arm().robot, plant.arm().transitions,
+                            EffectPlant::MotionOf(log));
+    const Eigen::MatrixXd measured = plant.Measured(log);
+    std::map<std::string, double> found;
+    double least = 1;
+    for (double limit = .6; limit < 2; limit += .05) {
+      for (double tried = 0; tried < .7; tried += .1) {
+        Eigen::VectorXd p(4);
+        p << 1, limit * plant.arm().scale.torque[kJoint], .05, tried;
+        const Eigen::MatrixXd change = EffectPlant::Judged(
+            plant.arm().Change(effect, kJoint, p, &recorded));
+        const double left = (measured - change).norm() / measured.norm();
+        if (left >= least) continue;
+        least = left;
+        for (const EffectEstimate& estimate :
+             EstimatesOf(effect, plant.arm().Site(kJoint), p)) {
+          found[estimate.name] = estimate.value;
+        }
+      }
+    }
+    EXPECT_LT(least, .01);
+    EXPECT_NEAR(found["limit"], truth["limit"], .1 * truth["limit"]);
+    EXPECT_NEAR(found["limit_slope"], truth["limit_slope"],
+                .2 * truth["limit_slope"] + .01 * truth["limit"]);
+  }
 }
 
 }  // namespace armcal::torque_saturation_test

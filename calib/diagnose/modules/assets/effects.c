@@ -14,7 +14,7 @@ typedef struct effects_law law_t;
 /* Of differences for slopes. */
 static const double velocity_step = 1e-4, deflection_step = 1e-6;
 /* Of a motor on its spring. */
-static const double phase_per_substep = .3;
+static const double phase_per_substep = .1;
 static const int most_substeps = 100;
 
 /* What a motor gives of its command. */
@@ -31,11 +31,15 @@ static double softplus(double x) {
   return log1p(exp(x));
 }
 
-static double saturation(double u, const double* p) {
-  const double w = p[2] * p[1];
+/* A limit of current, or of voltage, which falls with the speed along the
+ * torque. */
+static double saturation(double u, double v, const double* p) {
+  const double share = p[0], at_rest = p[1], slope = p[2], knee = p[4];
+  const double limit = fmax(p[3], at_rest - slope * copysign(v, v * u));
+  const double w = knee * limit;
   const double passed =
-      w * (softplus(1 / p[2]) - softplus((p[1] - fabs(u)) / w));
-  return u - p[0] * (u - copysign(passed, u));
+      w * (softplus(1 / knee) - softplus((limit - fabs(u)) / w));
+  return u - share * (u - copysign(passed, u));
 }
 
 /* x + d tanh(x / s) = y by Newton's steps, which rise to x. */
@@ -52,7 +56,7 @@ static double deadband(double u, const double* p) {
   return copysign(x, u);
 }
 
-static void command(const law_t* law, double* torque) {
+static void command(const law_t* law, const double* velocity, double* torque) {
   const double* p = law->p;
   double* u = &torque[law->joint];
   switch (law->kind) {
@@ -66,7 +70,7 @@ static void command(const law_t* law, double* torque) {
       *u = nonlinearity(*u, p);
       break;
     case EFFECTS_TORQUE_SATURATION:
-      *u = saturation(*u, p);
+      *u = saturation(*u, velocity[law->joint], p);
       break;
     case EFFECTS_TORQUE_DEADBAND:
       *u = deadband(*u, p);
@@ -410,8 +414,8 @@ void effects_act(effects_state* s, const double* commanded, const double* load,
   memcpy(s->given, lags(s) ? s->lag : commanded, sizeof(s->given));
   memcpy(torque, s->given, sizeof(s->given));
   for (int k = 0; k < EFFECTS_LAWS; ++k) {
-    command(&effects_laws[k], s->given);
-    if (!is_held(s, k)) command(&effects_laws[k], torque);
+    command(&effects_laws[k], s->velocity, s->given);
+    if (!is_held(s, k)) command(&effects_laws[k], s->velocity, torque);
   }
   set_drive(s);
   for (int j = 0; j < N; ++j) {

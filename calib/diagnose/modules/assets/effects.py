@@ -20,20 +20,20 @@ import os
 import sys
 
 VELOCITY_STEP, DEFLECTION_STEP = 1e-4, 1e-6  # of differences for slopes
-PHASE_PER_SUBSTEP, MOST_SUBSTEPS = .3, 100  # of a motor on its spring
+PHASE_PER_SUBSTEP, MOST_SUBSTEPS = .1, 100  # of a motor on its spring
 
-# What a motor gives of its command: (torques, joint, numbers), in place.
+# What a motor gives of its command: (torques, joint, numbers, velocities), in place.
 
 
-def _gain(u, j, p):
+def _gain(u, j, p, _):
     u[j] /= 1 + p["gain"]
 
 
-def _offset(u, j, p):
+def _offset(u, j, p, _):
     u[j] -= p["offset"]
 
 
-def _nonlinearity(u, j, p):
+def _nonlinearity(u, j, p, _):
     """x + fall x^3 = y has one real root."""
     if p["fall"] <= 0:
         return
@@ -47,13 +47,15 @@ def _softplus(x):
     return math.log1p(math.exp(x))
 
 
-def _saturation(u, j, p):
-    limit, w = p["limit"], p["knee"] * p["limit"]
+def _saturation(u, j, p, v):
+    """A limit of current, or of voltage, which falls with the speed along the torque."""
+    limit = max(p["least"], p["limit"] - p["slope"] * math.copysign(v[j], v[j] * u[j]))
+    w = p["knee"] * limit
     passed = w * (_softplus(1 / p["knee"]) - _softplus((limit - abs(u[j])) / w))
     u[j] -= p["share"] * (u[j] - math.copysign(passed, u[j]))
 
 
-def _deadband(u, j, p):
+def _deadband(u, j, p, _):
     """x + d tanh(x / s) = y by Newton's steps, which rise to x."""
     d, s, y = p["deadband"], p["softness"], abs(u[j])
     if d <= 0:
@@ -68,7 +70,7 @@ def _deadband(u, j, p):
     u[j] = math.copysign(x, u[j])
 
 
-def _crosstalk(u, j, p):
+def _crosstalk(u, j, p, _):
     u[j] -= p["gain"] * u[int(p["neighbour"]) - 1]
 
 
@@ -294,9 +296,9 @@ class Effects:
         given = self._lag[:] if self._lag_time else commanded[:]
         own = given[:]  # without what the simulator holds
         for command, j, p, held in self._commands:
-            command(given, j, p)
+            command(given, j, p, self.velocity)
             if not held:
-                command(own, j, p)
+                command(own, j, p, self.velocity)
         self._given = given
         self._drive = given[:]
         for j in range(self.n):

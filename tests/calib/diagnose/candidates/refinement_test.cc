@@ -134,9 +134,9 @@ TEST_F(GapRefinementTest, EndsInTheMinimumAlongABound) {
   const Effect& backlash = *FindEffect("backlash");
   const double gap = 8 * backlash.parameters[0].size(arm_.Site(0));
   const double stiffest = backlash.parameters[1].grid(arm_.Site(0)).front();
-  Record(backlash, 0, Eigen::Vector2d(gap, stiffest / 3));
+  Record(backlash, 0, Eigen::Vector3d(gap, stiffest / 3, .2));
   const RefinedEffects once =
-      Refine(backlash, 0, Eigen::Vector2d(.8 * gap, 3 * stiffest));
+      Refine(backlash, 0, Eigen::Vector3d(.8 * gap, 3 * stiffest, .2));
   EXPECT_DOUBLE_EQ(once.effects[0].p[1], stiffest);
   const RefinedEffects twice = Refine(backlash, 0, once.effects[0].p);
   EXPECT_LT(twice.delta_chi2 - once.delta_chi2, .1);

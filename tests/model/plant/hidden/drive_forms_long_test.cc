@@ -76,7 +76,7 @@ TEST(HiddenDriveForms, Drives) {
              [&](double) { return Columns({tau.array().cube()}); }),
       .05, .5, "nonlinearity");
   ExpectAnotherForm(
-      Misfit(lost({"torque_saturation", 1, {1.5}}), Grid(8, 20),
+      Misfit(lost({"torque_saturation", 1, {1.5, 0}}), Grid(8, 20),
              [&](double limit) {
                return Columns({tau - tau.cwiseMin(limit).cwiseMax(-limit)});
              }),

@@ -58,7 +58,7 @@ TEST(HiddenDrivePhysics, HeldAgainstItsWeight) {
 TEST(HiddenDrivePhysics, SaturationClips) {
   HiddenLoop loop(Wheel(), Sine(.3, 1.2, 2.5));
   loop.context.torque[0] = 5;
-  const HiddenRun run = loop.Run("torque_saturation", 0, {1.4});
+  const HiddenRun run = loop.Run("torque_saturation", 0, {1.4, 0});
   const auto largest = [](const HiddenRun& of) {
     double most = 0;
     for (int k = 100; k + 5 < of.log.size(); ++k) {

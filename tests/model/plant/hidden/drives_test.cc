@@ -28,10 +28,20 @@ TEST(HiddenDrives, AmplifiersByHand) {
   EXPECT_NEAR(Given({"torque_gain", 1, {.1}}, 11), 10, 1e-12);
   EXPECT_NEAR(Given({"torque_nonlinearity", 1, {.1}}, 20), 18, 1e-12);
   EXPECT_NEAR(Given({"torque_nonlinearity", 1, {.1}}, -2), -2, .005);
-  const HiddenPlant limited("torque_saturation", 1, {1.5});
+  const HiddenPlant limited("torque_saturation", 1, {1.5, 0});
   EXPECT_NEAR(Given(limited, 5), 5, 1e-5);
   EXPECT_NEAR(Given(limited, -15), -14.158, 1e-3);  // 15 / 2^(1/12)
   EXPECT_NEAR(Given(limited, 60), 15, 1e-6);
+  // Of a motor that turns at twice the speed scale: 15 (1 - .5 (2 - 1)) along
+  // its torque, 15 (1 - .5 (-2 - 1)) against it, all but none at 5.
+  HiddenPlant falling("torque_saturation", 1, {1.5, .5});
+  EXPECT_NEAR(falling.Value("limit"), 22.5, 1e-12);
+  EXPECT_NEAR(falling.Value("limit_slope"), 7.5, 1e-12);
+  falling.at.velocity[1] = 2;
+  EXPECT_NEAR(Given(falling, 90), 7.5, 1e-6);
+  EXPECT_NEAR(Given(falling, -900), -37.5, 1e-6);
+  falling.at.velocity[1] = 5;
+  EXPECT_NEAR(Given(falling, 90), .15, 1e-6);
   const HiddenPlant dead("torque_deadband", 1, {.05});
   EXPECT_EQ(Given(dead, 0), 0);
   EXPECT_LT(std::abs(Given(dead, .05)), .001);
