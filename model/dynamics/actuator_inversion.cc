@@ -153,16 +153,16 @@ MatrixXd GivenTorque(const std::vector<ActuatorMap>& actuators,
 
 namespace {
 
-// The command for which one motor gives what is needed: as InvertMap, of one
-// number.
-double InvertAt(const MotorMap& motor, double needed, double guess,
-                double close) {
+// The command for which one motor gives what is needed at this velocity: as
+// InvertMap, of one number.
+double InvertAt(const MotorMap& motor, double velocity, double needed,
+                double guess, double close) {
   double commanded = guess;
-  double missing = needed - motor.given(commanded), step = missing;
+  double missing = needed - motor.given(commanded, velocity), step = missing;
   for (int i = 0; i < kMostSteps && std::abs(missing) > close; ++i) {
     commanded += step;
     const double before = missing;
-    missing = needed - motor.given(commanded);
+    missing = needed - motor.given(commanded, velocity);
     if (!((before - missing) / before > kLeastProgress)) break;
     step = missing * step / (before - missing);
   }
@@ -170,8 +170,8 @@ double InvertAt(const MotorMap& motor, double needed, double guess,
 }
 
 // From what is needed of the motors to what is asked of them, in place.
-void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
-                 MatrixXd* torque) {
+void InvertMotor(const MotorMap& motor, const MotionTrack& track,
+                 const MatrixXd& guess, MatrixXd* torque) {
   const int j = motor.joint;
   if (motor.commanded) {
     for (double& one : torque->col(j)) one = motor.commanded(one);
@@ -179,7 +179,8 @@ void InvertMotor(const MotorMap& motor, const MatrixXd& guess,
   }
   const double close = kClose * torque->cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < torque->rows(); ++k) {
-    (*torque)(k, j) = InvertAt(motor, (*torque)(k, j), guess(k, j), close);
+    (*torque)(k, j) = InvertAt(motor, track.velocity(j, k), (*torque)(k, j),
+                               guess(k, j), close);
   }
 }
 
@@ -235,7 +236,7 @@ MatrixXd CommandFor(const std::vector<ActuatorMap>& actuators,
     if (map->initial_state.size() > 0) {
       commanded = InvertLag({*map}, track, commanded);
     } else if (motor != nullptr) {
-      InvertMotor(*motor, from, &commanded);
+      InvertMotor(*motor, track, from, &commanded);
     } else {
       commanded = InvertMap({*map}, track, commanded, from);
     }

@@ -13,7 +13,7 @@ struct FlankedSpring {
   // beside what flanks yield by, 7 to 25 % of the gap (effects/backlash): a
   // flank is felt before it is reached, and a gap that was told by rounder
   // corners, .05, was a fifth too wide.
-  static constexpr double kRounding = .002;
+  static constexpr double kRounding = .005;
 
   double gap = 0;         // rad or m
   double stiffness = 0;   // N m/rad or N/m, of a flank

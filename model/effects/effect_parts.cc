@@ -162,7 +162,10 @@ void AddActuator(const EffectSite& site,
                  const std::function<double(double commanded)>& given,
                  const std::function<double(double given)>& commanded,
                  SimulatedRobot* robot) {
-  robot->actuators.push_back({{}, MotorMap{site.joint, given, commanded}});
+  robot->actuators.push_back(
+      {{},
+       MotorMap{site.joint, [given](double x, double) { return given(x); },
+                commanded}});
 }
 
 double SoftPlus(double x) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -62,6 +63,11 @@ struct JointDrive {
   double rest = 0;
   // Torque that the motor gives per torque that is asked of it.
   double gain = 1;
+  // The largest torque that is given at rest, N m or N, and by how much it
+  // falls with the speed along it, as a supply's voltage limits it, N m s/rad
+  // or N s/m: at their ratio, the no-load speed, nothing is left.
+  double torque_limit = std::numeric_limits<double>::infinity();
+  double torque_limit_slope = 0;
 
   // Laws that few robot files have. With a gear between motor and link they
   // act on the motor, as do friction and spring.

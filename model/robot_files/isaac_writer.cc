@@ -1,11 +1,14 @@
 #include "model/robot_files/isaac_writer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "model/robot_files/multiplied_gains.h"
 #include "model/text/exact_text.h"
+#include "model/text/input_text.h"
 
 namespace armcal {
 namespace {
@@ -42,9 +45,35 @@ bool IsDelayed(const RobotDescription& description) {
   return description.controller && description.controller->delay > 0;
 }
 
-// Of Isaac Lab's actuators the one that this robot's joints have.
-std::string ConfigurationOf(const RobotDescription& description) {
-  return IsDelayed(description) ? "DelayedPDActuatorCfg" : "IdealPDActuatorCfg";
+// Isaac Lab's motor whose torque falls with speed has no delay.
+bool FallsWithSpeed(const RobotDescription& description, int joint) {
+  return !IsDelayed(description) &&
+         description.DriveOf(joint).torque_limit_slope > 0;
+}
+
+// Of Isaac Lab's actuators the one that this joint has.
+std::string ConfigurationOf(const RobotDescription& description, int joint) {
+  return IsDelayed(description)               ? "DelayedPDActuatorCfg"
+         : FallsWithSpeed(description, joint) ? "DCMotorCfg"
+                                              : "IdealPDActuatorCfg";
+}
+
+// What torque and speed are held within. A DC motor's torque is limited by
+//   saturation_effort (1 - v / velocity_limit),
+// and both ways by effort_limit, which it has to have.
+void AddLimits(const RobotDescription& description, int j, std::string* text) {
+  const Joint& joint = description.robot.links[j].joint;
+  const JointDrive drive = description.DriveOf(j);
+  const double limit = drive.torque_limit;
+  if (FallsWithSpeed(description, j)) {
+    AddField("effort_limit", std::isfinite(joint.effort) ? joint.effort : limit,
+             text);
+    AddField("saturation_effort", limit, text);
+    AddField("velocity_limit", limit / drive.torque_limit_slope, text);
+  } else {
+    AddField("effort_limit", std::min(joint.effort, limit), text);
+  }
+  AddField("velocity_limit_sim", joint.velocity, text);
 }
 
 void AddActuator(const RobotDescription& description, int j,
@@ -52,12 +81,12 @@ void AddActuator(const RobotDescription& description, int j,
   const Joint& joint = description.robot.links[j].joint;
   const PidGains gains = GainsOf(description, j);
   *text += "        " + PythonText(joint.name) + ": " +
-           ConfigurationOf(description) + "(\n            joint_names_expr=[" +
-           NamePattern(joint.name) + "],\n";
+           ConfigurationOf(description, j) +
+           "(\n            joint_names_expr=[" + NamePattern(joint.name) +
+           "],\n";
   AddField("stiffness", gains.kp, text);
   AddField("damping", gains.kd, text);
-  AddField("effort_limit", joint.effort, text);
-  AddField("velocity_limit_sim", joint.velocity, text);
+  AddLimits(description, j, text);
   AddField("armature", joint.armature, text);
   AddField("friction", joint.coulomb, text);
   AddField("dynamic_friction", joint.coulomb, text);
@@ -71,6 +100,15 @@ void AddActuator(const RobotDescription& description, int j,
 std::vector<std::string> IsaacLosses(const RobotDescription& description) {
   std::vector<std::string> losses;
   if (!description.controller) return losses;
+  for (int j = 0; j < description.robot.num_joints(); ++j) {
+    if (IsDelayed(description) &&
+        description.DriveOf(j).torque_limit_slope > 0) {
+      losses.push_back(
+          "Isaac Lab's delayed actuators have no limit of torque "
+          "that falls with speed (" +
+          description.robot.links[j].joint.name + ")");
+    }
+  }
   const ControllerOptions& controller = *description.controller;
   const auto any = [&](auto has) {
     for (const DriveLaw& law : controller.drives) {
@@ -115,8 +153,12 @@ std::string MakeIsaac(const RobotDescription& description) {
   text += description.controller
               ? " Commands are joint positions and velocities."
               : " Commands are joint efforts: stiffness and damping are 0.";
+  std::set<std::string> used;
+  for (int j = 0; j < description.robot.num_joints(); ++j) {
+    used.insert(ConfigurationOf(description, j));
+  }
   text += "\n\"\"\"\n\nfrom isaaclab.actuators import " +
-          ConfigurationOf(description) + "\n\n\n";
+          JoinNames({used.begin(), used.end()}) + "\n\n\n";
   if (delayed) {
     text += "DELAY = " + ExactText(description.controller->delay) +
             "  # s, of commands\n\n\n";

@@ -105,8 +105,9 @@ XMLElement* AddMotor(const Joint& joint, const JointDrive& drive,
       actuators->InsertNewChildElement(plain ? "motor" : "general");
   motor->SetAttribute("name", joint.name.c_str());
   motor->SetAttribute("joint", joint.name.c_str());
-  if (std::isfinite(joint.effort)) {
-    SetRange("ctrllimited", "ctrlrange", -joint.effort, joint.effort, motor);
+  const double most = std::min(joint.effort, drive.torque_limit);
+  if (std::isfinite(most)) {
+    SetRange("ctrllimited", "ctrlrange", -most, most, motor);
   }
   if (drive.gain != 1) Set("gainprm", drive.gain, motor);
   if (joint.offset == 0) return motor;
@@ -244,9 +245,13 @@ RobotFormat MjcfFormat() {
 }
 
 RobotFormat PlainMjcfFormat() {
-  return {"mjcf_plain",      "plain MJCF",
-          "robot_plain.xml", {RobotField::kVelocityLimit, RobotField::kLaws},
-          &MakeMjcf,         &MjcfLosses};
+  return {"mjcf_plain",
+          "plain MJCF",
+          "robot_plain.xml",
+          {RobotField::kVelocityLimit, RobotField::kTorqueLimitSlope,
+           RobotField::kLaws},
+          &MakeMjcf,
+          &MjcfLosses};
 }
 
 }  // namespace armcal

@@ -37,6 +37,10 @@ double ValueOf(RobotField field, const Joint& joint, const JointDrive& drive) {
       return drive.stiffness;
     case RobotField::kGain:
       return drive.gain == 1 ? 0 : drive.gain;
+    case RobotField::kTorqueLimit:
+      return std::isfinite(drive.torque_limit) ? drive.torque_limit : 0;
+    case RobotField::kTorqueLimitSlope:
+      return drive.torque_limit_slope;
     case RobotField::kLaws:
       return drive.HasLaws() ? 1 : 0;
     case RobotField::kVelocityLimit:
@@ -65,6 +69,10 @@ std::string NameOf(RobotField field) {
       return "springs";
     case RobotField::kGain:
       return "torque given per torque asked";
+    case RobotField::kTorqueLimit:
+      return "limits of the motors' torque at rest";
+    case RobotField::kTorqueLimitSlope:
+      return "limits of torque that fall with speed";
     case RobotField::kLaws:
       return "laws of drives";
     case RobotField::kVelocityLimit:

@@ -29,6 +29,8 @@ enum class RobotField {
   kOffset,
   kSpring,
   kGain,
+  kTorqueLimit,       // JointDrive's, not the joint's own effort
+  kTorqueLimitSlope,  // that it falls with speed
   kLaws,  // JointDrive's beyond a spring and a gain, and a delay of torque
   kVelocityLimit,
   kGravity,

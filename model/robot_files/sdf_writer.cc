@@ -163,7 +163,8 @@ RobotFormat SdfFormat() {
   return {"sdf",
           "SDF",
           "robot.sdf",
-          {RobotField::kOffset, RobotField::kGain, RobotField::kLaws,
+          {RobotField::kOffset, RobotField::kGain, RobotField::kTorqueLimit,
+           RobotField::kTorqueLimitSlope, RobotField::kLaws,
            RobotField::kController},
           &MakeSdf,
           &SdfLosses};

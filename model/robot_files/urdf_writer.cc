@@ -103,8 +103,9 @@ RobotFormat UrdfFormat() {
           "URDF",
           "robot.urdf",
           {RobotField::kArmature, RobotField::kOffset, RobotField::kSpring,
-           RobotField::kGain, RobotField::kLaws, RobotField::kGravity,
-           RobotField::kController},
+           RobotField::kGain, RobotField::kTorqueLimit,
+           RobotField::kTorqueLimitSlope, RobotField::kLaws,
+           RobotField::kGravity, RobotField::kController},
           &WriteUrdf,
           nullptr};
 }

@@ -52,7 +52,7 @@ def load_configurations(wheel):
     found = module("isaaclab.actuators.actuator_pd_cfg",
                    texts.read(FOLDER + "actuator_pd_cfg.py").decode()
                    .replace("= MISSING", "= None"))
-    for name in ("IdealPDActuatorCfg", "DelayedPDActuatorCfg"):
+    for name in ("IdealPDActuatorCfg", "DelayedPDActuatorCfg", "DCMotorCfg"):
         setattr(package, name, getattr(found, name))
 
 

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -53,10 +54,48 @@ void VariedEffects::AddAround(const Coordinate& size, const Coordinate& shape,
   }
 }
 
+// Whether the shape is one that is refined and stands where it is tried first.
+bool VariedEffects::IsYetToBeRefined(const Coordinate& shape) const {
+  const EffectParameter& parameter = ParameterOf(shape);
+  if (parameter.search != EffectParameter::Search::kRefined) return false;
+  const GapCandidate& effect = effects_[shape.effect];
+  const std::vector<double> grid =
+      parameter.grid({&baseline_.robot(), effect.joint, &scale_});
+  return std::count(grid.begin() + 1, grid.end() - 1,
+                    effect.p[shape.parameter]) > 0;
+}
+
+// All that an effect of one size is tried at: its usual size, by every
+// combination of its shapes.
+void VariedEffects::AddShapes(int effect, std::vector<VectorXd>* points) const {
+  const GapCandidate& own = effects_[effect];
+  const EffectSite site = {&baseline_.robot(), own.joint, &scale_};
+  std::vector<VectorXd> all = {points->front()};
+  for (const Coordinate& c : coordinates_) {
+    if (c.effect != effect) continue;
+    const EffectParameter& parameter = ParameterOf(c);
+    const std::vector<double> values = parameter.grid
+                                           ? parameter.grid(site)
+                                           : std::vector{parameter.size(site)};
+    std::vector<VectorXd> more;
+    for (const VectorXd& point : all) {
+      for (const double value : values) {
+        more.push_back(point);
+        more.back()[&c - coordinates_.data()] = c.Inverse(value);
+      }
+    }
+    all = std::move(more);
+  }
+  points->insert(points->end(), all.begin(), all.end());
+}
+
 std::vector<VectorXd> VariedEffects::Starts() const {
   std::vector<VectorXd> points = {VectorXd::Ones(size())};
   for (const Coordinate& shape : coordinates_) {
-    if (ParameterOf(shape).search != EffectParameter::Search::kRefined) {
+    if (!IsYetToBeRefined(shape)) continue;
+    const Effect& effect = *effects_[shape.effect].effect;
+    if (!effect.proportional && effect.larger_sizes.empty()) {
+      AddShapes(shape.effect, &points);
       continue;
     }
     for (const Coordinate& size : coordinates_) {

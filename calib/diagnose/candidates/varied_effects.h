@@ -31,7 +31,8 @@ class VariedEffects {
   // minimum wherever its oscillation is in phase with the residual for a while,
   // and only one where it stays so; a solver ends in the one that it starts in.
   // The others are a grid of each linear size, from half to twice of it, by the
-  // low end of each shape that is refined.
+  // low end of each shape that is yet to be refined: what was starts where it
+  // is. An effect of one size, as a limit is, starts from every shape at that.
   std::vector<Eigen::VectorXd> Starts() const;
   // At several points, per joint thinned samples. As many at a time as springs
   // have lanes, on all threads.
@@ -40,6 +41,8 @@ class VariedEffects {
 
  private:
   const EffectParameter& ParameterOf(const Coordinate& c) const;
+  void AddShapes(int effect, std::vector<Eigen::VectorXd>* points) const;
+  bool IsYetToBeRefined(const Coordinate& shape) const;
   void AddAround(const Coordinate& size, const Coordinate& shape,
                  std::vector<Eigen::VectorXd>* points) const;
 

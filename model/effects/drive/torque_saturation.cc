@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "model/dynamics/motor_map.h"
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
@@ -12,20 +13,20 @@ namespace {
 // What a limit with a rounded corner lets through: 0 at 0, with slope 1 far
 // below it, `limit` far beyond.
 struct SoftClip {
-  SoftClip(double limit, double knee)
-      : limit(limit), w(knee * limit), most(SoftPlus(1 / knee)) {}
-  double operator()(double x) const {
+  explicit SoftClip(double knee) : knee(knee), most(SoftPlus(1 / knee)) {}
+  double operator()(double x, double limit) const {
+    const double w = knee * limit;
     const double passed = w * (most - SoftPlus((limit - std::abs(x)) / w));
     return std::copysign(passed, x);
   }
-  double limit, w, most;
+  double knee, most;
 };
 
 // Within the torques that were asked for. A loop that winds up at its limit
 // asks for far more than that: limits reach down to what is usual. Where
 // nothing was asked for any limit will do.
 std::vector<double> LimitsBelow(double top, double usual) {
-  constexpr double kStep = 1.15, kHighest = .95, kLeast = .02;  // of the top
+  constexpr double kStep = 1.25, kHighest = 2, kLeast = .02;  // of the top
   if (!(top > 0)) return {1};
   const double lowest = std::clamp(1.5 * usual / top, kLeast, .5);
   const int steps = static_cast<int>(
@@ -49,6 +50,13 @@ struct SpeedLine {
   double Slope() const { return limit * fall / usual_speed; }
   double limit, fall, usual_speed;
 };
+
+// What takes less than half of the excess, or half as much again, is no limit
+// that a robot file could have; a tenth of it, or thrice as much, is none at
+// all: a corner of another form than the real one is rounded otherwise, which
+// the share makes up for.
+bool IsALimit(double share) { return share > .5 && share < 1.5; }
+bool MayBeALimit(double share) { return share > .1 && share < 3; }
 
 }  // namespace
 
@@ -75,35 +83,19 @@ Effect TorqueSaturation() {
                     tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site),
                     TorqueScale(site));
               }),
-      Gridded("knee", "1",
-              [](const EffectSite&) {
-                return std::vector<double>{.02, .08};
-              }),
-      Refined("fall", "1", {0, 0, 3})};
+      Refined("knee", "1", {.02, .05, .08}),
+      Refined("fall", "1", {0, 0, .5, 1.5})};
   effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
-    const double share = p[0], knee = p[2];
+    const double share = p[0];
+    const SoftClip clip(p[2]);
     const SpeedLine line(site, p);
-    const auto given = [share](double commanded, const SoftClip& clip) {
-      return commanded - share * (commanded - clip(commanded));
+    const auto given = [=](double commanded, double velocity) {
+      const double along = std::copysign(1, commanded) * velocity;
+      return commanded - share * (commanded - clip(commanded, line.At(along)));
     };
-    if (line.fall == 0) {
-      const SoftClip clip(line.limit, knee);
-      AddActuator(
-          site, [=](double commanded) { return given(commanded, clip); }, {},
-          robot);
-      return;
-    }
-    const int j = site.joint;
-    robot->actuators.push_back(
-        {{},
-         [=](const ArmInstant& at, const double*, double*,
-             Eigen::VectorXd* torque) {
-           double& tau = (*torque)[j];
-           const double along = std::copysign(1, tau) * at.velocity[j];
-           tau = given(tau, SoftClip(line.At(along), knee));
-         }});
+    robot->actuators.push_back({{}, MotorMap{site.joint, given, {}}});
   };
   effect.estimates = [](const EffectSite& site, const Eigen::VectorXd& p) {
     const SpeedLine line(site, p);
@@ -112,6 +104,16 @@ Effect TorqueSaturation() {
         {"limit_slope", UnitAt(site, "E s/P"), line.Slope()},
         {"share", "1", p[0]},
         {"knee", "1", p[2]}};
+  };
+  effect.plausible = [](const std::vector<EffectEstimate>& estimates) {
+    return MayBeALimit(estimates[2].value);
+  };
+  // A rounded corner has no field anywhere.
+  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
+    if (!IsALimit(NumberOf(numbers, "share"))) return false;
+    drive->torque_limit = NumberOf(numbers, "limit");
+    drive->torque_limit_slope = NumberOf(numbers, "slope");
+    return true;
   };
   effect.proportional = false;
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {

@@ -38,6 +38,9 @@ ActuatorMap Stateless(const std::function<double(double)>& given) {
             (*torque)[0] = given((*torque)[0]);
           }};
 }
+ActuatorMap Motor(const std::function<double(double)>& given) {
+  return {{}, MotorMap{0, [given](double x, double) { return given(x); }, {}}};
+}
 ActuatorMap Lag(double time) {
   return {VectorXd::Zero(1), [time](const ArmInstant&, const double* given,
                                     double* rate, VectorXd* torque) {
@@ -67,7 +70,7 @@ TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
   };
   const VectorXd needed = Wave(Torque);
   for (const VectorXd& guess : {VectorXd(), VectorXd(needed * .9)}) {
-    const ActuatorMap motor = {{}, MotorMap{0, given, {}}};
+    const ActuatorMap motor = Motor(given);
     const MatrixXd commanded = CommandFor({motor}, Rest(), needed, guess);
     const MatrixXd other =
         CommandFor({Stateless(given)}, Rest(), needed, guess);
@@ -77,12 +80,31 @@ TEST(ActuatorInversion, InvertsMotorsAsOtherMaps) {
   }
 }
 
+// A limit that falls with the speed along the torque: half of it at 1 rad/s,
+// against which it grows.
+TEST(ActuatorInversion, AsksOfAMotorWhatItGivesAtItsVelocity) {
+  const auto given = [](double x, double v) {
+    return (2 - v * std::copysign(1, x)) * std::tanh(x);
+  };
+  MotionTrack track = Rest();
+  track.velocity = Wave([](double t) { return std::sin(3 * t); }).transpose();
+  const VectorXd asked = Wave([](double t) { return 1.5 * std::sin(t); });
+  VectorXd needed(kSamples);
+  for (int k = 0; k < kSamples; ++k) {
+    needed[k] = given(asked[k], track.velocity(0, k));
+  }
+  const VectorXd commanded = CommandFor(
+      {ActuatorMap{{}, MotorMap{0, given, {}}}}, track, needed, .95 * asked);
+  EXPECT_LT((commanded - asked).cwiseAbs().maxCoeff(), 1e-6);
+}
+
 // A map whose inverse is known needs no record.
 TEST(ActuatorInversion, TakesTheInverseOfAMotor) {
   const VectorXd needed = Wave(Torque);
-  const ActuatorMap motor = {{},
-                             MotorMap{0, [](double x) { return std::sinh(x); },
-                                      [](double y) { return std::asinh(y); }}};
+  const ActuatorMap motor = {
+      {},
+      MotorMap{0, [](double x, double) { return std::sinh(x); },
+               [](double y) { return std::asinh(y); }}};
   const VectorXd commanded =
       CommandFor({motor}, Rest(), needed, VectorXd::Zero(kSamples));
   for (int k = 0; k < kSamples; ++k) {
@@ -97,8 +119,7 @@ TEST(ActuatorInversion, InvertsSteepMotors) {
   for (const double slope : {1 / .2, 1 / .3, 1 / .5, 1 / 3.}) {
     const auto given = [slope](double x) { return slope * x; };
     for (const VectorXd& guess : {VectorXd(), VectorXd(needed / 2)}) {
-      for (const ActuatorMap& motor :
-           {ActuatorMap{{}, MotorMap{0, given, {}}}, Stateless(given)}) {
+      for (const ActuatorMap& motor : {Motor(given), Stateless(given)}) {
         const VectorXd commanded = CommandFor({motor}, Rest(), needed, guess);
         EXPECT_LT((slope * commanded - needed).cwiseAbs().maxCoeff(), 1e-8)
             << slope;

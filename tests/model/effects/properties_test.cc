@@ -70,7 +70,7 @@ TEST_P(PropertiesOf, InvertsItsMotor) {
       const auto* motor = map.apply.target<MotorMap>();
       if (motor == nullptr || !motor->commanded) continue;
       for (const double given : {-20., -1., -1e-3, 0., 1e-3, 1., 20.}) {
-        EXPECT_NEAR(motor->given(motor->commanded(given)), given, 1e-9);
+        EXPECT_NEAR(motor->given(motor->commanded(given), 1), given, 1e-9);
       }
     }
   });

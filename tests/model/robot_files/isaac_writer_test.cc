@@ -34,6 +34,35 @@ TEST(IsaacWriter, HoldsFrictionArmatureAndLimits) {
   EXPECT_THAT(text, AllOf(Not(HasSubstr("inf")), Not(HasSubstr("delay"))));
 }
 
+// A motor that gives 60 N m at rest and 2 N m s/rad less as it turns.
+TEST(IsaacWriter, HoldsWhatAVoltageLeaves) {
+  RobotDescription description = MakeDescription();
+  description.drives.resize(2);
+  description.drives[1].torque_limit = 60;
+  description.drives[1].torque_limit_slope = 2;
+  const std::string text = MakeIsaac(description);
+  EXPECT_THAT(text, AllOf(HasSubstr("import DCMotorCfg, IdealPDActuatorCfg\n"),
+                          HasSubstr("\"elbow.pitch \\\"2\\\"\": DCMotorCfg("),
+                          HasSubstr("effort_limit=40,"),
+                          HasSubstr("saturation_effort=60,"),
+                          HasSubstr("velocity_limit=30,")));
+  description.drives[1].torque_limit_slope = 0;
+  description.drives[1].torque_limit = 30;
+  EXPECT_THAT(MakeIsaac(description),
+              AllOf(Not(HasSubstr("DCMotor")), HasSubstr("effort_limit=30,")));
+  // Which has no delay.
+  description.drives[1].torque_limit_slope = 2;
+  ControllerOptions controller;
+  controller.drives.resize(2);
+  controller.delay = .004;
+  controller.feedforward = Feedforward::kNone;
+  description.controller = controller;
+  EXPECT_THAT(MakeIsaac(description),
+              AllOf(Not(HasSubstr("DCMotor")), HasSubstr("effort_limit=30,")));
+  EXPECT_THAT(IsaacFormat().more_losses(description),
+              ElementsAre(HasSubstr("falls with speed (elbow.pitch")));
+}
+
 // A cascade of position gain 5 around a velocity loop of kd 8 and ki 3 is a PD
 // loop of kp 5 * 8 + 3, and an integral that Isaac Lab has not.
 TEST(IsaacWriter, HoldsTheDrives) {

@@ -232,17 +232,6 @@ static double stiffness_of(const law_t* spring) {
   return spring->kind == EFFECTS_BACKLASH ? spring->p[1] : spring->p[0];
 }
 
-/* ln(1 + e^x), a ramp with a rounded corner at 0, and its slope. */
-static double corner(double x, double* slope) {
-  if (fabs(x) > 25) {
-    *slope = x > 0;
-    return fmax(x, 0);
-  }
-  const double tail = exp(-fabs(x));
-  *slope = (x > 0 ? 1 : tail) / (1 + tail);
-  return fmax(x, 0) + log1p(tail);
-}
-
 static double spring_torque(const effects_state* s, const law_t* law,
                             double more, double faster) {
   const int j = law->joint;
@@ -252,10 +241,13 @@ static double spring_torque(const effects_state* s, const law_t* law,
   if (law->kind == EFFECTS_ELASTICITY) {
     return p[0] * d * (1 + p[2] * d * d) + p[1] * rate;
   }
-  double touching;
-  const double side = d < 0 ? -1 : 1, w = .002 * p[0];
-  const double pressed = corner((fabs(d) - p[0] / 2) / w, &touching);
-  return side * fmax(0, p[1] * w * pressed + p[2] * touching * side * rate);
+  /* Flanks that press and never pull; the corner of a ramp is a parabola from
+   * -1 to 1. */
+  const double side = d < 0 ? -1 : 1, w = .005 * p[0];
+  const double x = (fabs(d) - p[0] / 2) / w;
+  const double slope = fmin(1, fmax(0, (1 + x) / 2));
+  const double ramp = x > 1 ? x : slope * slope;
+  return side * fmax(0, p[1] * w * ramp + p[2] * slope * side * rate);
 }
 
 static double slope_over_rate(const effects_state* s, const law_t* law) {

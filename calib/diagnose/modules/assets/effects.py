@@ -133,22 +133,17 @@ TORQUES = {
 # Between a motor and its link: the torque on the link.
 
 
-def _corner(x):
-    """ln(1 + e^x), a ramp with a rounded corner at 0, and its slope."""
-    if abs(x) > 25:
-        return max(x, 0.), float(x > 0)
-    tail = math.exp(-abs(x))
-    return max(x, 0.) + math.log1p(tail), (1 if x > 0 else tail) / (1 + tail)
-
-
 def _elasticity(d, rate, p):
     return p["stiffness"] * d * (1 + p["stiffening"] * d * d) + p["damping"] * rate
 
 
 def _backlash(d, rate, p):
-    side, w = math.copysign(1, d), .002 * p["gap"]
-    pressed, touching = _corner((abs(d) - p["gap"] / 2) / w)
-    return side * max(0., p["stiffness"] * w * pressed + p["damping"] * touching * side * rate)
+    """Flanks that press and never pull; the corner of a ramp is a parabola from -1 to 1."""
+    side, w = math.copysign(1, d), .005 * p["gap"]
+    x = (abs(d) - p["gap"] / 2) / w
+    slope = min(1., max(0., (1 + x) / 2))
+    ramp = x if x > 1 else slope * slope
+    return side * max(0., p["stiffness"] * w * ramp + p["damping"] * slope * side * rate)
 
 
 TRANSMISSIONS = {"elasticity": _elasticity, "backlash": _backlash}
