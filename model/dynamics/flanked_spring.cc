@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace armcal {
+
 double FlankedSpring::operator()(double deflection, double rate, const double*,
                                  double*) const {
   if (gap == 0) {

@@ -9,10 +9,10 @@ namespace armcal {
 // a class of its own so that whoever follows deflections knows it again
 // (Transmission::torque.target) and follows many of them in lanes.
 struct FlankedSpring {
-  // Of the gap: over this much its corners are rounded. It has to be small
-  // beside what flanks yield by, 7 to 25 % of the gap (effects/backlash): a
-  // flank is felt before it is reached, and a gap that was told by rounder
-  // corners, .05, was a fifth too wide.
+  // Of the gap: a corner is a parabola over twice this much. That has to be
+  // small beside what flanks yield by, 7 to 25 % of the gap
+  // (effects/backlash): a flank is felt before it is reached, and with corners
+  // that were rounded over .05 gaps were told a fifth too wide.
   static constexpr double kRounding = .005;
 
   double gap = 0;         // rad or m

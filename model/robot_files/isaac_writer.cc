@@ -60,14 +60,15 @@ std::string ConfigurationOf(const RobotDescription& description, int joint) {
 
 // What torque and speed are held within. A DC motor's torque is limited by
 //   saturation_effort (1 - v / velocity_limit),
-// and both ways by effort_limit, which it has to have.
+// below 0 beyond that speed, and both ways by effort_limit, which it has to
+// have: a motor that brakes has twice its torque at rest at most.
 void AddLimits(const RobotDescription& description, int j, std::string* text) {
   const Joint& joint = description.robot.links[j].joint;
   const JointDrive drive = description.DriveOf(j);
   const double limit = drive.torque_limit;
   if (FallsWithSpeed(description, j)) {
-    AddField("effort_limit", std::isfinite(joint.effort) ? joint.effort : limit,
-             text);
+    AddField("effort_limit",
+             std::isfinite(joint.effort) ? joint.effort : 2 * limit, text);
     AddField("saturation_effort", limit, text);
     AddField("velocity_limit", limit / drive.torque_limit_slope, text);
   } else {

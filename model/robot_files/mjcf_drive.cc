@@ -86,7 +86,8 @@ void AddDrive(const Joint& joint, const JointDrive& drive,
               const ControllerOptions& controller, const DriveLaw& law,
               XMLElement* actuators) {
   const PidGains gains = TimesGain(law, drive.gain);
-  const double limit = drive.gain * law.torque_limit;
+  const double limit =
+      drive.gain * std::min(law.torque_limit, drive.torque_limit);
   const std::string inputs = Inputs(controller, law);
   const bool plain = inputs == "pos" && gains.ki == 0;
   XMLElement* element = actuators->InsertNewChildElement(law.lag > 0 ? "dcmotor"

@@ -240,8 +240,10 @@ std::string MakeMjcf(const RobotDescription& description) {
 }
 
 RobotFormat MjcfFormat() {
-  return {"mjcf",    "MJCF",     "robot.xml", {RobotField::kVelocityLimit},
-          &MakeMjcf, &MjcfLosses};
+  return {
+      "mjcf",      "MJCF",
+      "robot.xml", {RobotField::kVelocityLimit, RobotField::kTorqueLimitSlope},
+      &MakeMjcf,   &MjcfLosses};
 }
 
 RobotFormat PlainMjcfFormat() {

@@ -54,29 +54,43 @@ void VariedEffects::AddAround(const Coordinate& size, const Coordinate& shape,
   }
 }
 
-// Whether the shape is one that is refined and stands where it is tried first.
-bool VariedEffects::IsYetToBeRefined(const Coordinate& shape) const {
-  const EffectParameter& parameter = ParameterOf(shape);
-  if (parameter.search != EffectParameter::Search::kRefined) return false;
-  const GapCandidate& effect = effects_[shape.effect];
-  const std::vector<double> grid =
-      parameter.grid({&baseline_.robot(), effect.joint, &scale_});
-  return std::count(grid.begin() + 1, grid.end() - 1,
-                    effect.p[shape.parameter]) > 0;
+std::vector<double> VariedEffects::GridOf(const Coordinate& c) const {
+  return ParameterOf(c).grid(
+      {&baseline_.robot(), effects_[c.effect].joint, &scale_});
 }
 
-// All that an effect of one size is tried at: its usual size, by every
-// combination of its shapes.
+// Shapes of the effect that are refined, if all of them stand where they are
+// tried first.
+std::vector<const Coordinate*> VariedEffects::YetToBeRefined(int effect) const {
+  std::vector<const Coordinate*> shapes;
+  for (const Coordinate& c : coordinates_) {
+    if (c.effect != effect ||
+        ParameterOf(c).search != EffectParameter::Search::kRefined) {
+      continue;
+    }
+    const std::vector<double> grid = GridOf(c);
+    const double value = effects_[effect].p[c.parameter];
+    if (std::count(grid.begin() + 1, grid.end() - 1, value) == 0) return {};
+    shapes.push_back(&c);
+  }
+  return shapes;
+}
+
+// The usual size by every combination of the shapes' values, those between
+// which a refined one may be included.
 void VariedEffects::AddShapes(int effect, std::vector<VectorXd>* points) const {
   const GapCandidate& own = effects_[effect];
-  const EffectSite site = {&baseline_.robot(), own.joint, &scale_};
   std::vector<VectorXd> all = {points->front()};
   for (const Coordinate& c : coordinates_) {
     if (c.effect != effect) continue;
     const EffectParameter& parameter = ParameterOf(c);
-    const std::vector<double> values = parameter.grid
-                                           ? parameter.grid(site)
-                                           : std::vector{parameter.size(site)};
+    std::vector<double> values;
+    if (parameter.grid) {
+      values = GridOf(c);
+      values.erase(std::unique(values.begin(), values.end()), values.end());
+    } else {
+      values = {parameter.size({&baseline_.robot(), own.joint, &scale_})};
+    }
     std::vector<VectorXd> more;
     for (const VectorXd& point : all) {
       for (const double value : values) {
@@ -91,17 +105,20 @@ void VariedEffects::AddShapes(int effect, std::vector<VectorXd>* points) const {
 
 std::vector<VectorXd> VariedEffects::Starts() const {
   std::vector<VectorXd> points = {VectorXd::Ones(size())};
-  for (const Coordinate& shape : coordinates_) {
-    if (!IsYetToBeRefined(shape)) continue;
-    const Effect& effect = *effects_[shape.effect].effect;
+  for (int e = 0; e < static_cast<int>(effects_.size()); ++e) {
+    const std::vector<const Coordinate*> shapes = YetToBeRefined(e);
+    if (shapes.empty()) continue;
+    const Effect& effect = *effects_[e].effect;
     if (!effect.proportional && effect.larger_sizes.empty()) {
-      AddShapes(shape.effect, &points);
+      AddShapes(e, &points);
       continue;
     }
-    for (const Coordinate& size : coordinates_) {
-      if (size.effect == shape.effect &&
-          ParameterOf(size).search == EffectParameter::Search::kLinear) {
-        AddAround(size, shape, &points);
+    for (const Coordinate* shape : shapes) {
+      for (const Coordinate& size : coordinates_) {
+        if (size.effect == e &&
+            ParameterOf(size).search == EffectParameter::Search::kLinear) {
+          AddAround(size, *shape, &points);
+        }
       }
     }
   }

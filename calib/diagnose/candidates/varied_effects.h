@@ -31,8 +31,9 @@ class VariedEffects {
   // minimum wherever its oscillation is in phase with the residual for a while,
   // and only one where it stays so; a solver ends in the one that it starts in.
   // The others are a grid of each linear size, from half to twice of it, by the
-  // low end of each shape that is yet to be refined: what was starts where it
-  // is. An effect of one size, as a limit is, starts from every shape at that.
+  // low end of each shape that is refined; one that was refined already starts
+  // where it is. An effect of a single size, such as a limit, starts at that
+  // size from every combination of its shapes.
   std::vector<Eigen::VectorXd> Starts() const;
   // At several points, per joint thinned samples. As many at a time as springs
   // have lanes, on all threads.
@@ -41,8 +42,9 @@ class VariedEffects {
 
  private:
   const EffectParameter& ParameterOf(const Coordinate& c) const;
+  std::vector<double> GridOf(const Coordinate& c) const;
+  std::vector<const Coordinate*> YetToBeRefined(int effect) const;
   void AddShapes(int effect, std::vector<Eigen::VectorXd>* points) const;
-  bool IsYetToBeRefined(const Coordinate& shape) const;
   void AddAround(const Coordinate& size, const Coordinate& shape,
                  std::vector<Eigen::VectorXd>* points) const;
 

@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 // Of differences for slopes.
 constexpr double kVelocityStep = 1e-4;    // rad/s or m/s
 constexpr double kDeflectionStep = 1e-6;  // rad or m
-// Of a motor on its spring.
-constexpr double kPhasePerSubstep = .1;  // rad
+// Of a motor on its spring: so short that a flank's corner is not passed
+// unnoticed, up to springs that turn by five radians a step.
+constexpr double kPhasePerSubstep = .05;  // rad
 constexpr int kMostMotorSubsteps = 100;
 
 }  // namespace

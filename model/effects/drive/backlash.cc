@@ -36,9 +36,9 @@ Transmission DeadZone(int joint, const FlankedSpring& spring) {
 // pull (Nordin and Gutman 2002). `yield` is the share of the gap by which
 // flanks give under the joint's usual torque: so deflections, and torques, are
 // in proportion to the gap. `damping_ratio` is that of a flank's spring with
-// the motor held; of .2 a link that strikes it bounces at about half its speed
-// (exp(-pi z / sqrt(1 - z^2)), z = .2), and when it comes back tells much of
-// the gap. A simulation needs an armature of the joint.
+// the motor held; of .2 a link that strikes it bounces at .57 of its speed, and
+// when it comes back tells much of the gap. A simulation needs an armature of
+// the joint.
 Effect Backlash() {
   Effect effect;
   effect.name = "backlash";

@@ -22,11 +22,13 @@ struct SoftClip {
   double knee, most;
 };
 
-// Within the torques that were asked for. A loop that winds up at its limit
-// asks for far more than that: limits reach down to what is usual. Where
-// nothing was asked for any limit will do.
-std::vector<double> LimitsBelow(double top, double usual) {
-  constexpr double kStep = 1.25, kHighest = 2, kLeast = .02;  // of the top
+// Up to twice the largest torque that was asked for: a rounded corner is felt
+// before the limit is reached, and a limit that falls is reached at higher
+// speeds. A loop that winds up at its limit asks for far more than that: limits
+// reach down to what is usual. Where nothing was asked for any limit will do.
+std::vector<double> LimitsToTry(double top, double usual) {
+  // The step is what a refinement bridges; the others are of the top.
+  constexpr double kStep = 1.25, kHighest = 2, kLeast = .02;
   if (!(top > 0)) return {1};
   const double lowest = std::clamp(1.5 * usual / top, kLeast, .5);
   const int steps = static_cast<int>(
@@ -36,19 +38,20 @@ std::vector<double> LimitsBelow(double top, double usual) {
 
 // The motor's line between torque and speed: by Ohm's law a supply's voltage
 // less what the motor itself makes drives the largest current,
-//   limit(v) = limit (1 - fall (v / usual speed - 1)), v along the torque,
-// so that `limit` is that at the joint's usual speed; a motor that brakes has
-// more. A current limit does not fall.
+//   limit(v) = usual_limit (1 - fall (v / usual speed - 1)), v along the
+//   torque,
+// so that usual_limit is that at the joint's usual speed; a motor that brakes
+// has more. A current limit does not fall.
 struct SpeedLine {
   SpeedLine(const EffectSite& site, const Eigen::VectorXd& p)
-      : limit(p[1]), fall(p[3]), usual_speed(SpeedScale(site)) {}
+      : usual_limit(p[1]), fall(p[3]), usual_speed(SpeedScale(site)) {}
   double At(double velocity_along) const {
     return std::max(Least(), AtRest() - Slope() * velocity_along);
   }
-  double Least() const { return .01 * limit; }  // from the no-load speed on
-  double AtRest() const { return limit * (1 + fall); }
-  double Slope() const { return limit * fall / usual_speed; }
-  double limit, fall, usual_speed;
+  double Least() const { return .01 * usual_limit; }  // from no-load speed on
+  double AtRest() const { return usual_limit * (1 + fall); }
+  double Slope() const { return usual_limit * fall / usual_speed; }
+  double usual_limit, fall, usual_speed;
 };
 
 // What takes less than half of the excess, or half as much again, is no limit
@@ -76,14 +79,16 @@ Effect TorqueSaturation() {
       Linear(
           "share", "1", [](const EffectSite&) { return 1.; },
           EffectParameter::Sign::kPositive),
-      Gridded("limit", "E",
+      Gridded("usual_limit", "E",
               [](const EffectSite& site) {
                 const Eigen::VectorXd& tops = site.scale->top_torque;
-                return LimitsBelow(
+                return LimitsToTry(
                     tops.size() > 0 ? tops[site.joint] : 2 * TorqueScale(site),
                     TorqueScale(site));
               }),
+      // Of a corner that is hardly seen to one over a quarter of the limit.
       Refined("knee", "1", {.02, .05, .08}),
+      // None is tried as well, as of a current limit.
       Refined("fall", "1", {0, 0, .5, 1.5})};
   effect.unfit = WhyNotRecorded;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
@@ -106,13 +111,23 @@ Effect TorqueSaturation() {
         {"knee", "1", p[2]}};
   };
   effect.plausible = [](const std::vector<EffectEstimate>& estimates) {
-    return MayBeALimit(estimates[2].value);
+    const auto share = std::find_if(
+        estimates.begin(), estimates.end(),
+        [](const EffectEstimate& one) { return one.name == "share"; });
+    return MayBeALimit(share->value);
   };
   // A rounded corner has no field anywhere.
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     if (!IsALimit(NumberOf(numbers, "share"))) return false;
-    drive->torque_limit = NumberOf(numbers, "limit");
-    drive->torque_limit_slope = NumberOf(numbers, "slope");
+    // A fall of less than a twentieth by the usual speed is less than motors'
+    // constants are known to.
+    constexpr double kFlat = .05;
+    const double at_rest = NumberOf(numbers, "limit");
+    const double usual = 100 * NumberOf(numbers, "least");
+    drive->torque_limit = at_rest;
+    if (at_rest > (1 + kFlat) * usual) {
+      drive->torque_limit_slope = NumberOf(numbers, "slope");
+    }
     return true;
   };
   effect.proportional = false;

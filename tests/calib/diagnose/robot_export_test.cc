@@ -83,7 +83,7 @@ TEST_F(Export, FormatsHoldWhatTheyHaveFieldsFor) {
 TEST_F(Export, MjcfOfLawsIsReadAsTheArm) {
   const RobotExport out =
       Of(Nothing(), {Found("presliding", 1, Eigen::Vector2d(1.5, .003)),
-                     Found("backlash", 2, Eigen::Vector2d(.002, .25))});
+                     Found("backlash", 2, Eigen::Vector3d(.002, .25, .2))});
   for (const RobotFile& file : out.files) {
     if (std::string(file.format->name) != "mjcf") continue;
     const Robot robot = ReadRobot(WriteFile(file.text, "back.xml"), {});

@@ -68,6 +68,24 @@ TEST(MjcfDrive, CascadeIsMultipliedOutToAPid) {
   }
 }
 
+// A limit of the motor below the file's effort, and what becomes of one that
+// falls with speed.
+TEST(MjcfDrive, LimitsOfTheMotorAreItsControls) {
+  RobotDescription description{TwoLinkArm().ToNamedRobot(), {}};
+  description.robot.links[0].joint.effort = 40;
+  EXPECT_THAT(Numbers(MakeMjcf(description), "motor", "ctrlrange"),
+              ElementsAre(-40, 40));
+  description.drives.resize(2);
+  description.drives[0].torque_limit = 30;
+  EXPECT_THAT(Numbers(MakeMjcf(description), "motor", "ctrlrange"),
+              ElementsAre(-30, 30));
+  EXPECT_TRUE(MjcfFormat().Holds(Joint(), description.drives[0]));
+  description.drives[0].torque_limit_slope = 2;
+  EXPECT_FALSE(MjcfFormat().Holds(Joint(), description.drives[0]));
+  EXPECT_THAT(Losses(MjcfFormat(), description),
+              testing::Contains(HasSubstr("fall with speed (joint1 2)")));
+}
+
 TEST(MjcfDrive, DelaysAndLagsAreWritten) {
   RobotDescription description = Arm(DriveKind::kP);
   description.controller->delay = .0055;

@@ -14,7 +14,7 @@ typedef struct effects_law law_t;
 /* Of differences for slopes. */
 static const double velocity_step = 1e-4, deflection_step = 1e-6;
 /* Of a motor on its spring. */
-static const double phase_per_substep = .1;
+static const double phase_per_substep = .05;
 static const int most_substeps = 100;
 
 /* What a motor gives of its command. */

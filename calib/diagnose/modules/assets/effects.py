@@ -20,7 +20,7 @@ import os
 import sys
 
 VELOCITY_STEP, DEFLECTION_STEP = 1e-4, 1e-6  # of differences for slopes
-PHASE_PER_SUBSTEP, MOST_SUBSTEPS = .1, 100  # of a motor on its spring
+PHASE_PER_SUBSTEP, MOST_SUBSTEPS = .05, 100  # of a motor on its spring
 
 # What a motor gives of its command: (torques, joint, numbers, velocities), in place.
 
