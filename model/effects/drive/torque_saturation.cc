@@ -61,6 +61,28 @@ struct SpeedLine {
 bool IsALimit(double share) { return share > .5 && share < 1.5; }
 bool MayBeALimit(double share) { return share > .1 && share < 3; }
 
+bool HasShareOfALimit(const std::vector<EffectEstimate>& estimates) {
+  const auto share = std::find_if(
+      estimates.begin(), estimates.end(),
+      [](const EffectEstimate& one) { return one.name == "share"; });
+  return MayBeALimit(share->value);
+}
+
+// A rounded corner has no field anywhere.
+bool SetLimit(const EffectNumbers& numbers, JointDrive* drive) {
+  // A fall of less than a twentieth by the usual speed is less than motors'
+  // constants are known to.
+  constexpr double kFlat = .05;
+  if (!IsALimit(NumberOf(numbers, "share"))) return false;
+  const double at_rest = NumberOf(numbers, "limit");
+  const double usual = 100 * NumberOf(numbers, "least");
+  drive->torque_limit = at_rest;
+  if (at_rest > (1 + kFlat) * usual) {
+    drive->torque_limit_slope = NumberOf(numbers, "slope");
+  }
+  return true;
+}
+
 }  // namespace
 
 // given = commanded - share (commanded - clip(commanded, limit)), share about
@@ -110,26 +132,8 @@ Effect TorqueSaturation() {
         {"share", "1", p[0]},
         {"knee", "1", p[2]}};
   };
-  effect.plausible = [](const std::vector<EffectEstimate>& estimates) {
-    const auto share = std::find_if(
-        estimates.begin(), estimates.end(),
-        [](const EffectEstimate& one) { return one.name == "share"; });
-    return MayBeALimit(share->value);
-  };
-  // A rounded corner has no field anywhere.
-  effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
-    if (!IsALimit(NumberOf(numbers, "share"))) return false;
-    // A fall of less than a twentieth by the usual speed is less than motors'
-    // constants are known to.
-    constexpr double kFlat = .05;
-    const double at_rest = NumberOf(numbers, "limit");
-    const double usual = 100 * NumberOf(numbers, "least");
-    drive->torque_limit = at_rest;
-    if (at_rest > (1 + kFlat) * usual) {
-      drive->torque_limit_slope = NumberOf(numbers, "slope");
-    }
-    return true;
-  };
+  effect.plausible = HasShareOfALimit;
+  effect.set_drive = SetLimit;
   effect.proportional = false;
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     const SpeedLine line(site, p);
