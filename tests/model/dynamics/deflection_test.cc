@@ -156,6 +156,22 @@ TEST(Deflection, CrossesAGapInFreeFlight) {
   EXPECT_NEAR(d.acceleration.sum() * kStep, 0, 1e-9);
 }
 
+// Flanks 20 mrad apart, of 1000 N m/rad and 50 N m s/rad: by hand.
+TEST(FlankedSpring, PressesAndNeverPulls) {
+  const FlankedSpring flanks{.02, 1000, 50};
+  EXPECT_NEAR(flanks(.012, 0), 2, 1e-12);
+  EXPECT_NEAR(flanks(-.012, 0), -2, 1e-12);
+  EXPECT_NEAR(flanks(.012, .1), 7, 1e-12);
+  EXPECT_NEAR(flanks(-.012, -.1), -7, 1e-12);
+  EXPECT_EQ(flanks(.009, 1), 0);
+  EXPECT_EQ(flanks(-.009, -1), 0);
+  // Parting faster than the flank follows.
+  EXPECT_EQ(flanks(.012, -1), 0);
+  EXPECT_EQ(flanks(-.012, 1), 0);
+  // In the middle of a corner, a quarter of its half width.
+  EXPECT_NEAR(flanks(.01, 0), 1000 * .25 * .005 * .02, 1e-12);
+}
+
 // Springs, with gaps and without, of joints that carry different loads: in
 // lanes they go as the law does when nobody knows it, step by step with
 // differences for its slopes; and together as alone, to the bit.
