@@ -48,7 +48,9 @@ struct SpeedLine {
   double At(double velocity_along) const {
     return std::max(Least(), AtRest() - Slope() * velocity_along);
   }
-  double Least() const { return .01 * usual_limit; }  // from no-load speed on
+  // From about the no-load speed on.
+  static constexpr double kLeast = .01;  // of usual_limit
+  double Least() const { return kLeast * usual_limit; }
   double AtRest() const { return usual_limit * (1 + fall); }
   double Slope() const { return usual_limit * fall / usual_speed; }
   double usual_limit, fall, usual_speed;
@@ -75,7 +77,7 @@ bool SetLimit(const EffectNumbers& numbers, JointDrive* drive) {
   constexpr double kFlat = .05;
   if (!IsALimit(NumberOf(numbers, "share"))) return false;
   const double at_rest = NumberOf(numbers, "limit");
-  const double usual = 100 * NumberOf(numbers, "least");
+  const double usual = NumberOf(numbers, "least") / SpeedLine::kLeast;
   drive->torque_limit = at_rest;
   if (at_rest > (1 + kFlat) * usual) {
     drive->torque_limit_slope = NumberOf(numbers, "slope");
