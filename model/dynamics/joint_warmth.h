@@ -7,10 +7,18 @@
 
 namespace armcal {
 
+// What cold joints' friction heats them with, W, samples x n each.
+struct FrictionPower {
+  Eigen::MatrixXd viscous, coulomb;
+};
+
 // How much warmer than their surroundings joints are, K, that start cold and
-// are heated by `power` (W, samples x n, dt s apart), linear in between:
-// capacity T' = power - T / resistance, exactly. n x samples.
-Eigen::MatrixXd JointWarmth(const Eigen::MatrixXd& power, double dt,
+// are heated by their friction, known dt s apart and linear in between:
+//   capacity T' = viscous exp(-viscous_fall T) + coulomb exp(-coulomb_fall T)
+//                 - T / resistance,
+// exactly where nothing falls, else with the T of a sample before in what is
+// left of friction. n x samples.
+Eigen::MatrixXd JointWarmth(const FrictionPower& power, double dt,
                             const std::vector<JointThermal>& thermal);
 
 // The capacity and resistance with which a joint heated by `power` (W) would

@@ -9,7 +9,6 @@
 
 #include "model/dynamics/actuator_inversion.h"
 #include "model/dynamics/joint_law_torques.h"
-#include "model/dynamics/joint_warmth.h"
 #include "model/dynamics/motion_behind_readings.h"
 #include "model/signals/recording_delay.h"
 
@@ -22,12 +21,11 @@ using Eigen::VectorXd;
 bool SameThermal(const std::vector<JointThermal>& a,
                  const std::vector<JointThermal>& b) {
   if (a.size() != b.size()) return false;
-  for (size_t j = 0; j < a.size(); ++j) {
-    if (a[j].capacity != b[j].capacity || a[j].resistance != b[j].resistance) {
-      return false;
-    }
-  }
-  return true;
+  const auto same = [](const JointThermal& x, const JointThermal& y) {
+    return x.capacity == y.capacity && x.resistance == y.resistance &&
+           x.viscous_fall == y.viscous_fall && x.coulomb_fall == y.coulomb_fall;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), same);
 }
 
 RecordedTorque::OfJoints WithoutNothing(const MatrixXd& tau) {
@@ -138,9 +136,10 @@ RecordedTorque::RecordedTorque(const Robot& robot,
   const MatrixXd friction = FrictionTorque(robot_, motion_, coulomb_);
   nominal_ = load_ + friction;
   AddArmature(robot_, motion_, &nominal_);
-  friction_power_ = friction.cwiseProduct(motion_.qd);
+  friction_power_ = {motion_.qd.cwiseAbs2(), coulomb_.cwiseProduct(motion_.qd)};
   for (int j = 0; j < n; ++j) {
-    friction_power_.col(j) -= robot_.links[j].joint.offset * motion_.qd.col(j);
+    friction_power_.viscous.col(j) *= robot_.links[j].joint.viscous;
+    friction_power_.coulomb.col(j) *= robot_.links[j].joint.coulomb;
   }
   track_.SetMotion(motion_);
   track_.load = load_.transpose();

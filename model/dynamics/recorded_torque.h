@@ -8,6 +8,7 @@
 
 #include "model/dynamics/deflected_links.h"
 #include "model/dynamics/joint_term.h"
+#include "model/dynamics/joint_warmth.h"
 #include "model/dynamics/motion_track.h"
 #include "model/dynamics/rigid_torque.h"
 #include "model/dynamics/simulated_robot.h"
@@ -32,8 +33,8 @@ class RecordedTorque {
   const Eigen::MatrixXd& nominal() const { return nominal_; }
   // What drives hand to their links: without armature and friction.
   const Eigen::MatrixXd& load() const { return load_; }
-  // What its friction heats the joints with, W, samples x n.
-  const Eigen::MatrixXd& friction_power() const { return friction_power_; }
+  // What its friction heats the joints with.
+  const FrictionPower& friction_power() const { return friction_power_; }
 
   // Per joint, torque at the samples, N m or N; empty where it is nothing.
   using OfJoints = std::vector<Eigen::VectorXd>;
@@ -44,7 +45,8 @@ class RecordedTorque {
   //   joint laws and wrenches   exact, with their states along the motion. They
   //                             see the nominal load, and the temperature that
   //                             was recorded (above the usual one) or that
-  //                             `thermal` makes of nominal friction;
+  //                             `thermal` makes of nominal friction and of
+  //                             what warmth leaves of it;
   //   robot                     exact;
   //   transmissions             the deflection's equation of motion along the
   //                             recorded motion of the motor (deflection.h),
@@ -106,8 +108,8 @@ class RecordedTorque {
   std::vector<CoulombTransition> transitions_;
   Motion motion_;
   Eigen::MatrixXd nominal_, load_;
-  Eigen::MatrixXd coulomb_;         // states of Coulomb friction, samples x n
-  Eigen::MatrixXd friction_power_;  // W, samples x n
+  Eigen::MatrixXd coulomb_;  // states of Coulomb friction, samples x n
+  FrictionPower friction_power_;
   MotionTrack track_;
   std::vector<JointThermal> thermal_;  // behind track_.warmth
   std::shared_ptr<Kept> kept_;

@@ -113,6 +113,9 @@ struct SensorMap {
 struct JointThermal {
   double capacity = 2000;   // J/K
   double resistance = 0.5;  // K/W to the surroundings
+  // Warmth T leaves exp(-fall T) of its friction, 1/K: so along a recorded
+  // motion. A simulator's laws of friction know themselves.
+  double viscous_fall = 0, coulomb_fall = 0;
 };
 
 struct SimulatedRobot {

@@ -191,6 +191,7 @@ class Loop {
     run.saturated_share =
         saturated / std::max(1.0, static_cast<double>(periods));
     run.log = recorder_.Finish();
+    run.link_position = links_.Matrix();
     return run;
   }
 
@@ -230,6 +231,9 @@ class Loop {
       Reading reading = Read(differenced, history_.Delayed());
       reading.position = position;
       recorder_.Add(t, reading, reference.q);
+      if (!robot_.transmissions.empty()) {
+        links_.Add(simulator_.instant().link_position.tail(n_));
+      }
     }
     for (int k = 0; k < steps_; ++k) simulator_.Step(torque);
     return controller_.at_limit();
@@ -247,6 +251,7 @@ class Loop {
   JointController controller_;
   Encoders encoders_;
   Recorder recorder_;
+  Table links_;
   TorqueHistory history_;
   Eigen::VectorXd error_;
 };

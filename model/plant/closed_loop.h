@@ -25,6 +25,9 @@ struct ClosedLoopRun {
   // Of the driven joints: stamps, measured q, the controller's qd, torque as
   // recorded, qref and temperature.
   Log log;
+  // Where the driven joints' links truly were at the log's samples, rad or m,
+  // samples x n; empty where all move with their motors.
+  Eigen::MatrixXd link_position;
   bool finite = true;          // false: it diverged, and the log ends there
   double saturated_share = 0;  // of control periods, some torque at its limit
   // Root mean square of qref - q, n entries, rad or m; NaN where the log has

@@ -11,6 +11,7 @@ case, how far positions are from those recorded, rms of all joints: of the calib
 robot, of robot.xml in its own time steps (or --dt), and of armcal's own replay (`forward` of
 diagnosis.json). What no field of MJCF holds is in robot.xml as its mean over the log, which the
 rigid robot has as well; a second row then has effects.py beside robot.xml, which adds the rest.
+Where a gear yields a row more has links instead of motors, beside the truth.
 Exit code 1 where robot.xml is not nearer than the rigid robot (1.1 times as far where it lacks a
 law), where it does not come back as an arm of as many joints, or where it, or if it lacks a law
 effects.py beside it, is more than 1.2 times as far as armcal's own.
@@ -70,12 +71,22 @@ class Native(module_replay.Simulation):
         self.data = mujoco.MjData(self.model)
         self.at = [self.model.joint(name).qposadr[0] for name in joints]
         self.controls = [self.model.actuator(name).id for name in joints]
+        self.gears = {k: self.model.joint(f"{name}_gear").qposadr[0]
+                      for k, name in enumerate(joints)
+                      if mujoco.mj_name2id(self.model, mujoco.mjtObj.mjOBJ_JOINT,
+                                           f"{name}_gear") >= 0}
 
     def start(self, position):
         self.data.qpos[self.at] = position
 
     def read(self):
         return self.data.qpos[self.at]
+
+    def links(self):
+        positions = np.array(self.data.qpos[self.at])
+        for k, gear in self.gears.items():
+            positions[k] += self.data.qpos[gear]
+        return positions
 
     def give(self, torque):
         self.data.ctrl[self.controls] = torque
@@ -90,9 +101,9 @@ class WithRest(Native):
             folder / "effects.json", beside="mjcf")
         self.dofs = [self.model.joint(name).dofadr[0] for name in joints]
 
-    def path(self, log, kp, kd):
+    def paths(self, log, kp, kd):
         self.effects.t = -ca.SETTLE
-        return super().path(log, kp, kd)
+        return super().paths(log, kp, kd)
 
     def read(self):
         return self.effects.sense(self.model.opt.timestep, super().read(),
@@ -117,8 +128,9 @@ def reads_back(armcal, xml, out, joints):
 
 
 def replay(armcal, out, effect, dt):
-    """rms (rigid robot, robot.xml, with effects.py beside it if it lacks a law, armcal's own),
-    what was named, whether it is read back."""
+    """rms (rigid robot, robot.xml, with effects.py beside it if it lacks a law), each of motors
+    and, behind gears that yield, of links; armcal's own; what was named, whether it is read
+    back."""
     kp, kd = module_replay.make(armcal, out, effect)
     log = ca.CommandedLog(out / "log2" / "log.csv")
     rigid = module_replay.Simulation(out / "calibrated" / "robot.xml", 5e-4)
@@ -127,10 +139,10 @@ def replay(armcal, out, effect, dt):
     simulations = [rigid, Native(xml, dt, joints)]
     if rest_of(out / "diagnosed"):
         simulations.append(WithRest(out / "diagnosed", dt, joints))
-    rigid, native, *rest = [ca.rms(ca.difference(*simulation.path(log, kp, kd), log))
-                            for simulation in simulations]
+    rms = [module_replay.far(simulation.paths(log, kp, kd), out, log)
+           for simulation in simulations]
     named, (_, own) = module_replay.own_replay(out)
-    return (rigid, native, rest, own), named, reads_back(armcal, xml, out / "back", joints)
+    return rms, own, named, reads_back(armcal, xml, out / "back", joints)
 
 
 def show(name, rigid, found, own, text):
@@ -161,8 +173,8 @@ def main():
             if flags.case not in name:
                 continue
             out = Path(flags.work or folder).resolve() / (f"other_{name}" if flags.other else name)
-            (rigid, native, rest, own), named, back = replay(
-                Path(flags.armcal).resolve(), out, effect, flags.dt)
+            rms, own, named, back = replay(Path(flags.armcal).resolve(), out, effect, flags.dt)
+            rigid, native, *rest = [of[0] for of in rms]
             good = back and (native < MOST_OF_RIGID * rigid if rest else
                              native < min(rigid, module_replay.MOST_OF_OWN * own))
             values[name] = show(name, rigid, native, own,
@@ -172,6 +184,8 @@ def main():
                 values[f"{name}_effects_py"] = show(f"{name}, effects.py", rigid, module, own,
                                                     "" if near else "FAILED")
                 good = good and near
+            for links in zip(*(of[1:] for of in rms[:2])):
+                values[f"{name}_links"] = module_replay.show_links(name, *links)
             failed = failed or not good
     if flags.results:
         result_files.write(flags.results, "simulated arms with one effect each, robot.xml alone",

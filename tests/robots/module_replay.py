@@ -8,19 +8,23 @@ under position drives, diagnosed with --modules=python --export=mjcf_plain, and 
 MuJoCo follows the commands of a log that nothing was fitted to, in closed loop by the same
 drives: with the calibrated rigid robot, and with robot_plain.xml and effects.py. Prints, per case,
 how far positions are from those recorded, rms of all joints, for both and for armcal's own
-replay (`forward` of diagnosis.json). Exit code 1 where effects.py is more than 1.2 times as
+replay (`forward` of diagnosis.json). Where a gear yields, encoders say where motors are: a second
+row then has how far the links are from where they were (links.csv of `simulate`), which no
+diagnosis has seen. Exit code 1 where effects.py is more than 1.2 times as
 far as armcal's own. How far both are beside the rigid robot is the diagnosis's doing.
 
 Needs mujoco, numpy and scipy.
 """
 
 import argparse
+import copy
 import importlib.util
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import NamedTuple
 
 import mujoco
 import numpy as np
@@ -103,6 +107,14 @@ def load_module(folder):
     return module
 
 
+class Paths(NamedTuple):
+    """Positions at `times`, steps x joints: of the motors, as encoders have them, and of links."""
+
+    times: np.ndarray
+    motors: np.ndarray
+    links: np.ndarray
+
+
 class Simulation:
     """MuJoCo steps of dt, torques of drives held over their periods."""
 
@@ -120,24 +132,27 @@ class Simulation:
     def read(self):
         return self.data.qpos
 
+    def links(self):
+        return self.data.qpos
+
     def give(self, torque):
         self.data.ctrl[:] = torque
 
-    def path(self, log, kp, kd):
+    def paths(self, log, kp, kd):
         dt, drives = self.model.opt.timestep, Drives(log, kp, kd)
         self.start(log.qref[0])
         every = round(1 / drives.rate / dt)
         settle, end = round(ca.SETTLE / dt), int(log.t[-1] / dt)
-        path = np.empty((end, log.n))
+        motors, links = np.empty((end, log.n)), np.empty((end, log.n))
         for k in range(-settle, end):
             position = self.read()
             if k >= 0:
-                path[k] = position
+                motors[k], links[k] = position, self.links()
             if k % every == 0:
                 torque = drives.torque(k * dt, position)
             self.give(torque)
             mujoco.mj_step(self.model, self.data)
-        return np.arange(end) * dt, path
+        return Paths(np.arange(end) * dt, motors, links)
 
 
 class WithEffects(Simulation):
@@ -146,12 +161,12 @@ class WithEffects(Simulation):
         self.effects = load_module(folder).Effects(folder / "effects.json")
         self.effects.take_over(self.model)
 
-    def path(self, log, kp, kd):
+    def paths(self, log, kp, kd):
         self.data.qpos[:] = log.qref[0]
         mujoco.mj_forward(self.model, self.data)
         self.effects.reset(load=self.data.qfrc_bias)
         self.effects.t = -ca.SETTLE
-        return super().path(log, kp, kd)
+        return super().paths(log, kp, kd)
 
     def read(self):
         return self.effects.sense(self.model.opt.timestep, self.data.qpos, self.data.qvel)
@@ -184,6 +199,24 @@ def make(armcal, out, effect):
     return kp, kd
 
 
+def far(paths, out, log):
+    """rms from where motors were recorded and, where a gear yields, links were."""
+    rms = [ca.rms(ca.difference(paths.times, paths.motors, log))]
+    truth = out / "truth" / "links.csv"
+    if truth.exists():
+        links = copy.copy(log)
+        links.q = np.loadtxt(truth, delimiter=",", skiprows=1)[:, 1:1 + log.n]
+        rms.append(ca.rms(ca.difference(paths.times, paths.links, links)))
+    return rms
+
+
+def show_links(name, rigid, found):
+    """A row, and the values that are stored of it."""
+    print(f"{name + ', links':22}{rigid:10.2e}{found:11.2e}{'':21}{found / rigid:10.2f}",
+          flush=True)
+    return [rigid, found, found / rigid]
+
+
 def own_replay(out):
     """rms of joints' positions: refitted rigid robot, with the effects."""
     diagnosis = json.loads((out / "diagnosed" / "diagnosis.json").read_text(encoding="utf-8"))
@@ -206,7 +239,7 @@ def main():
     values = {}
     failed = False
     with tempfile.TemporaryDirectory() as folder:
-        print(f"{'case':12}{'rigid':>10}{'effects.py':>12}{'armcal':>10}"
+        print(f"{'case':22}{'rigid':>10}{'effects.py':>11}{'armcal':>10}"
               f"{'of armcal':>11}{'of rigid':>10}  named")
         for name, effect in CASES:
             if flags.case not in name:
@@ -214,17 +247,19 @@ def main():
             out = Path(flags.work or folder).resolve() / name
             kp, kd = make(Path(flags.armcal).resolve(), out, effect)
             log = ca.CommandedLog(out / "log2" / "log.csv")
-            rigid = ca.rms(ca.difference(*Simulation(
-                out / "calibrated" / "robot.xml", flags.dt).path(log, kp, kd), log))
-            module = ca.rms(ca.difference(*WithEffects(
-                out / "diagnosed", flags.dt).path(log, kp, kd), log))
+            rigid, *rigid_links = far(Simulation(
+                out / "calibrated" / "robot.xml", flags.dt).paths(log, kp, kd), out, log)
+            module, *links = far(WithEffects(
+                out / "diagnosed", flags.dt).paths(log, kp, kd), out, log)
             named, (_, own) = own_replay(out)
             good = module <= MOST_OF_OWN * own
             failed = failed or not good
             values[name] = [rigid, module, own, module / own, module / rigid]
-            print(f"{name:12}{rigid:10.2e}{module:12.2e}{own:10.2e}{module / own:11.2f}"
+            print(f"{name:22}{rigid:10.2e}{module:11.2e}{own:10.2e}{module / own:11.2f}"
                   f"{module / rigid:10.2f}  {', '.join(named)}{'' if good else '  FAILED'}",
                   flush=True)
+            for pair in zip(rigid_links, links):
+                values[f"{name}_links"] = show_links(name, *pair)
     if flags.results:
         result_files.write(flags.results, "simulated arms with one effect each", values)
     sys.exit(failed)

@@ -69,7 +69,20 @@ expect_size("elasticity@2:${stiffness},${damping}" 0 "^(20000|19999\\.999)")
 expect_size("elasticity@2:${stiffness},${damping}" 1 "^(20|19\\.9999)")
 expect_size("elasticity@2:${damping},${stiffness}" 0 "^(20000|19999\\.999)")
 expect_size("elasticity@2:${damping},${stiffness}" 1 "^(20|19\\.9999)")
+
+# Where the links were is told of gears that yield, and of no others.
+file(STRINGS ${WORK_DIR}/out/links.csv rows)
+list(LENGTH rows links)
+file(STRINGS ${WORK_DIR}/out/log.csv rows)
+list(LENGTH rows samples)
+if(NOT links EQUAL samples)
+  fail("links.csv has ${links} rows, log.csv ${samples}")
+endif()
+file(REMOVE_RECURSE ${WORK_DIR}/out)
 expect_size("payload:mass=3kg" 0 "^(3|2\\.9999)")
+if(EXISTS ${WORK_DIR}/out/links.csv)
+  fail("an arm without a gear has links.csv")
+endif()
 
 # What simulate writes, calibrate takes; as currents and with lost, jittering
 # samples too.

@@ -99,6 +99,15 @@ LogWriterOptions WriterFromFlags(const FlagValues& flags, int num_joints) {
   return writer;
 }
 
+// A log's times, and where links truly were: behind gears that yield no encoder
+// of a motor sees them.
+std::string LinkText(const ClosedLoopRun& run) {
+  Log links;
+  links.t = run.log.t;
+  links.q = run.link_position;
+  return LogText(links);
+}
+
 CommandOutcome Simulate(const CommandInput& input) {
   const FlagValues& flags = input.flags;
   CommandOutcome outcome;
@@ -129,6 +138,9 @@ CommandOutcome Simulate(const CommandInput& input) {
   // Beside the truth, as its command line has the effects.
   OutputFolder& told = flags.Text("truth").empty() ? out : secret;
   told.Add("truth.json", truth);
+  if (run.run.link_position.size() > 0) {
+    told.Add("links.csv", LinkText(run.run));
+  }
   std::vector<std::string> motion = {flags.Text("motion")};
   if (motion[0] == "fourier" || motion[0] == "points") motion.clear();
   AddProvenance(input, "simulate", motion, &told);

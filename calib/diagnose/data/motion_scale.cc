@@ -21,7 +21,8 @@ std::vector<JointThermal> RecordedThermal(
   }
   std::vector<JointThermal> thermal;
   for (int j = 0; longest && j < longest->motion().num_joints(); ++j) {
-    thermal.push_back(FitThermal(longest->friction_power().col(j),
+    const FrictionPower& power = longest->friction_power();
+    thermal.push_back(FitThermal(power.viscous.col(j) + power.coulomb.col(j),
                                  longest->motion().temperature.col(j),
                                  longest->motion().dt));
   }

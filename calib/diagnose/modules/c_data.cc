@@ -198,7 +198,7 @@ std::string CData(const CorrectedRobot& robot, const ModuleTest& test) {
          "static const struct effects_law {\n  int kind, joint, neighbour;\n"
          "  unsigned in;\n"
          "  struct { double viscous, coulomb, width, offset; } share;\n"
-         "  double p[5]; /* in the order of effects.json's law */\n"
+         "  double p[7]; /* in the order of effects.json's law */\n"
          "} effects_laws[] = {\n" +
          laws + "};\n" + TestTable(test) + "#endif\n\n#endif\n";
 }

@@ -11,17 +11,17 @@ namespace {
 // joints that their usual friction warms by this.
 constexpr double kUsualRise = 20;  // K
 
-// W, at the joint's usual speed.
-double FrictionPower(const EffectSite& site) {
+// W, of the cold joint at its usual speed.
+double UsualPower(const EffectSite& site) {
   const double v = SpeedScale(site);
   return (site.at().viscous * v + site.at().coulomb) * v;
 }
 
-// As the thermometer says, else as `time_constant` does, s.
-JointThermal Thermal(const EffectSite& site, double time_constant) {
+// As the thermometer says, else as `time_constant` does, s; p as below.
+JointThermal Thermal(const EffectSite& site, const Eigen::VectorXd& p) {
   if (!site.scale->thermal.empty()) return site.scale->thermal[site.joint];
-  const double resistance = kUsualRise / FrictionPower(site);
-  return {time_constant / resistance, resistance};
+  const double resistance = kUsualRise / UsualPower(site);
+  return {p[2] / resistance, resistance, p[0], p[1]};
 }
 
 std::vector<double> TimeConstants(const EffectSite& site) {
@@ -40,15 +40,19 @@ std::string WhyNoFriction(const EffectSite& site) {
 
 }  // namespace
 
-// tau = -(beta viscous v + coulomb_beta coulomb tanh(v / w)) warmth: friction
-// that falls as the joint warms up (Bittencourt et al. 2010; Simoni et al.
-// 2017). Warmth follows friction's power within time_constant, unless it was
-// recorded.
+// tau = viscous v (1 - exp(-beta warmth))
+//       + coulomb tanh(v / w) (1 - exp(-coulomb_beta warmth)):
+// friction that falls as the joint warms up (Bittencourt et al. 2010; Simoni et
+// al. 2017), as the viscosity of oil does in Reynolds' law (1886). Warmth
+// follows the power of what friction is left within time_constant, unless it
+// was recorded.
 Effect ThermalFriction() {
   Effect effect;
   effect.name = "thermal_friction";
   effect.nature = Effect::Nature::kDay;
-  effect.law = "tau = -(beta viscous v + coulomb_beta coulomb sign(v)) warmth";
+  effect.law =
+      "tau = viscous v (1 - exp(-beta warmth)) + coulomb sign(v) (1 - "
+      "exp(-coulomb_beta warmth))";
   effect.shows = "minutes of motion from cold";
   const auto size = [](const EffectSite&) { return .005; };
   effect.parameters = {
@@ -58,26 +62,31 @@ Effect ThermalFriction() {
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const int j = site.joint;
-    const double viscous = p[0] * site.at().viscous;
-    const double coulomb = p[1] * site.at().coulomb;
+    const double viscous = site.at().viscous, coulomb = site.at().coulomb;
+    const double beta = p[0], coulomb_beta = p[1];
     const double w = site.scale->width[j];
     robot->thermal.resize(robot->robot.num_joints());
-    robot->thermal[j] = Thermal(site, p[2]);
+    robot->thermal[j] = Thermal(site, p);
     AddFriction(
         site,
         [=](const ArmInstant& at) {
-          const double v = at.velocity[j];
-          return (viscous * v + coulomb * std::tanh(v / w)) * at.temperature[j];
+          const double v = at.velocity[j], warmth = at.temperature[j];
+          return -viscous * v * std::expm1(-beta * warmth) -
+                 coulomb * std::tanh(v / w) *
+                     std::expm1(-coulomb_beta * warmth);
         },
         robot);
   };
+  effect.proportional = false;
   effect.unfit = WhyNoFriction;
   effect.means = {"viscous_friction", "coulomb_friction"};
   effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
-    const JointThermal thermal = Thermal(site, p[2]);
-    return EffectNumbers{{"viscous", p[0] * site.at().viscous},
-                         {"coulomb", p[1] * site.at().coulomb},
+    const JointThermal thermal = Thermal(site, p);
+    return EffectNumbers{{"viscous", site.at().viscous},
+                         {"coulomb", site.at().coulomb},
+                         {"beta", p[0]},
+                         {"coulomb_beta", p[1]},
                          {"width", site.scale->width[site.joint]},
                          {"capacity", thermal.capacity},
                          {"resistance", thermal.resistance}};

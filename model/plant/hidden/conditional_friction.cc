@@ -13,6 +13,8 @@ namespace {
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
+constexpr double kVogel = 120;  // K, from 25 deg C down to Vogel's pole
+
 // tau = -mu (sqrt(load^2 + P^2) - P) sign(v): teeth preloaded by P, 0.2 of the
 // joint's torque scale, feel small loads little.
 HiddenEffect LoadFriction() {
@@ -99,10 +101,12 @@ HiddenEffect CoupledFriction() {
           WhyNoNeighbour};
 }
 
-// The joint's viscous friction times exp(-beta dT) (Reynolds' law of
-// viscosity) and its Coulomb friction times exp(-beta dT / 3): a torque with
-// the motion that takes from the ordinary friction what warmth took. The
-// joint's heat capacity is such that it warms by `rise` at its usual speed.
+// The joint's viscous friction times exp(-x) and its Coulomb friction times
+// exp(-x / 3), a torque with the motion that takes from the ordinary friction
+// what warmth took. x = beta dT C / (C + dT) by Vogel's law of viscosity
+// (1921), exp(b / (T + 95 deg C)) for mineral oils (Crouch and Cameron 1961),
+// of which beta is the slope at 25 deg C: C = 120 K. The joint's heat capacity
+// is such that it warms by `rise` at its usual speed.
 HiddenEffect ThermalFriction() {
   return {
       "thermal_friction",
@@ -125,7 +129,8 @@ HiddenEffect ThermalFriction() {
         const int k = site.from_tip();
         site.AddFriction([=](const ArmInstant& at, const double*, double*) {
           const double v = FromTip(at.velocity, k);
-          const double warm = -beta * FromTip(at.temperature, k);
+          const double dT = FromTip(at.temperature, k);
+          const double warm = -beta * dT * kVogel / (kVogel + dT);
           return -viscous * v * std::expm1(warm) -
                  coulomb * ZeroVelocitySign(v, w) * std::expm1(warm / 3);
         });

@@ -7,6 +7,7 @@
 
 namespace armcal::joint_warmth_test {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kStep = .05;  // s
@@ -26,6 +27,23 @@ struct WarmedJoint {
   }
   VectorXd power, warmth;
 };
+
+// Nothing is lost to the surroundings: 3 T' = P exp(-b T) gives
+// T = log(1 + b P t / 3) / b, of viscous and of Coulomb friction alike.
+TEST(JointWarmth, FrictionThatFallsHeatsTheLess) {
+  const double b = .05, P = 4;
+  const MatrixXd power = MatrixXd::Constant(kSamples, 2, P);
+  MatrixXd viscous = power, coulomb = power;
+  viscous.col(1).setZero();
+  coulomb.col(0).setZero();
+  const MatrixXd warmth = JointWarmth({viscous, coulomb}, kStep,
+                                      {{3, 1e9, b, .9}, {3, 1e9, .9, b}});
+  for (int k = 0; k < kSamples; ++k) {
+    const double T = std::log1p(b * P * k * kStep / 3) / b;
+    ASSERT_NEAR(warmth(0, k), T, .002 * T) << k;
+    ASSERT_NEAR(warmth(1, k), T, .002 * T) << k;
+  }
+}
 
 TEST(FitThermal, FindsCapacityAndResistance) {
   const WarmedJoint joint;

@@ -135,6 +135,39 @@ TEST(EffectTruthOfBacklash, TheGapIsTheHiddenOnes) {
   }
 }
 
+// Of friction that a joint's own heat takes away by Vogel's law, Reynolds'
+// leaves .011 and .012 of the torque, at a time constant that is tried; one
+// that falls evenly per kelvin .021 and .032, one that is heated by friction
+// that does not fall .016 and .027. A third of the exponent is hidden of
+// Coulomb friction.
+TEST(EffectTruthOfThermalFriction, LittleIsLeft) {
+  const EffectPlant plant(20);
+  const Effect& effect = *FindEffect("thermal_friction");
+  for (const int joint : {1, 2}) {
+    SimulatedRobot robot = plant.Bare();
+    const auto truth = HideEffect("thermal_friction", joint, plant.arm().robot,
+                                  20, &robot, {.05, 25, .3});
+    const Log log = plant.Run(robot);
+    RecordedTorque recorded(plant.arm().robot, plant.arm().transitions,
+                            EffectPlant::MotionOf(log));
+    const MatrixXd measured = plant.Measured(log);
+    double least = 1, ratio = 0;
+    for (const double times : {.7, .85, 1., 1.2, 1.4}) {
+      VectorXd p = plant.arm().Sizes(effect, joint);
+      p[2] = times * truth.at("time_constant");
+      p = Fit(plant, effect, joint, log, p);
+      const MatrixXd change =
+          EffectPlant::Judged(plant.arm().Change(effect, joint, p, &recorded));
+      const double left = (measured - change).norm() / measured.norm();
+      if (left >= least) continue;
+      least = left;
+      ratio = p[1] / p[0];
+    }
+    EXPECT_LT(least, .015) << joint;
+    EXPECT_NEAR(ratio, 1. / 3, .1) << joint;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Effects, EffectTruth,
     testing::Values(

@@ -198,6 +198,31 @@ TEST(ClosedLoop, PassiveJointsAreNeitherDrivenNorLogged) {
   EXPECT_LT(run.tracking_rms.maxCoeff(), 1e-2);
 }
 
+// Behind a gear of 2e4 N m/rad the link hangs back by what the gear carries:
+// of the second joint, from the motor's torque while it rests. Where nothing
+// yields, links are where the motors are, and no one is told.
+TEST(ClosedLoop, LinksAreBehindGearsThatYield) {
+  constexpr double kStiffness = 2e4, kDamping = 50;
+  const Robot robot = Puma();
+  SimulatedRobot plant = Plain(robot);
+  plant.transmissions.push_back(
+      {1,
+       {},
+       [](double x, double rate, const double*, double*) {
+         return kStiffness * x + kDamping * rate;
+       },
+       [](double load) { return load / kStiffness; }});
+  const ClosedLoopRun run = RunPuma(plant, robot, {}, 1);
+  ASSERT_EQ(run.link_position.rows(), run.log.size());
+  ASSERT_EQ(run.link_position.cols(), 6);
+  const double deflection = run.log.q(0, 1) - run.link_position(0, 1);
+  EXPECT_GT(std::abs(deflection), 1e-4);
+  EXPECT_NEAR(deflection, run.log.tau(0, 1) / kStiffness,
+              .02 * std::abs(deflection));
+  EXPECT_EQ(run.link_position.col(2), run.log.q.col(2));
+  EXPECT_EQ(RunPuma(Plain(robot), robot, {}, 1).link_position.size(), 0);
+}
+
 TEST(ClosedLoop, RefusesALogRateThatDoesNotDivide) {
   const Robot robot = Puma();
   ClosedLoopOptions options;

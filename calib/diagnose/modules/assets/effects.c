@@ -95,6 +95,11 @@ static double coupled(const effects_state* s, const law_t* law) {
   return -(p[0] * tanh(u / p[3]) + p[1] * u);
 }
 
+static double thermal(const double* p, double v, double warmth) {
+  return -p[0] * v * expm1(-p[2] * warmth) -
+         p[1] * tanh(v / p[4]) * expm1(-p[3] * warmth);
+}
+
 /* Of the law number k, N m or N; 0 of what is none. */
 static double law_torque(const effects_state* s, int k) {
   const law_t* law = &effects_laws[k];
@@ -123,7 +128,7 @@ static double law_torque(const effects_state* s, int k) {
     case EFFECTS_COUPLED_FRICTION:
       return coupled(s, law);
     case EFFECTS_THERMAL_FRICTION:
-      return (p[0] * v + p[1] * tanh(v / p[2])) * s->warmth[law->joint];
+      return thermal(p, v, s->warmth[law->joint]);
     case EFFECTS_SPRING:
       return p[1] - p[0] * q;
     case EFFECTS_CABLE:
@@ -319,8 +324,9 @@ static void advance_slow_states(effects_state* s, double dt, const double* qd) {
     const law_t* law = &effects_laws[k];
     if (law->kind != EFFECTS_THERMAL_FRICTION) continue;
     const int j = law->joint;
-    const double kept = exp(-dt / (law->p[4] * law->p[3]));
-    s->warmth[j] = kept * s->warmth[j] + law->p[4] * s->heat[j] * (1 - kept);
+    const double capacity = law->p[5], resistance = law->p[6];
+    const double kept = exp(-dt / (resistance * capacity));
+    s->warmth[j] = kept * s->warmth[j] + resistance * s->heat[j] * (1 - kept);
   }
 }
 

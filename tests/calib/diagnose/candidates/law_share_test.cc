@@ -58,23 +58,27 @@ class LawShare : public testing::Test {
   GapBaseline baseline_;
 };
 
-// Friction of a joint that is 10 K warmer all the time is less by 10 times what
-// it falls with a kelvin: .02 of viscous .8, .01 of Coulomb friction 1.5.
+// Friction of a joint that is 10 K warmer all the time is less by the 1 -
+// exp(-.2) of viscous .8 and the 1 - exp(-.1) of Coulomb friction 1.5.
 TEST_F(LawShare, OfWarmFrictionIsWhatItFalls) {
   const CarriedEffect effect =
       Of("thermal_friction", Eigen::Vector3d(.02, .01, 60),
          VectorXd::Constant(arm_.motion.size(), 10));
-  EXPECT_NEAR(ShareOf(effect, JointTerm::kViscous), -.16, 1e-6);
-  EXPECT_NEAR(ShareOf(effect, JointTerm::kCoulomb), -.15, 1e-6);
+  EXPECT_NEAR(ShareOf(effect, JointTerm::kViscous), .8 * std::expm1(-.2), 1e-6);
+  EXPECT_NEAR(ShareOf(effect, JointTerm::kCoulomb), 1.5 * std::expm1(-.1),
+              1e-6);
   EXPECT_EQ(ShareOf(effect, JointTerm::kOffset), 0);
 }
 
-// Its mean is that at the mean warmth, as the joint moves alike all the time.
+// Its mean is about that at the mean warmth, as the joint moves alike all the
+// time.
 TEST_F(LawShare, OfFrictionThatFallsIsItsMean) {
   const CarriedEffect effect =
       Of("thermal_friction", Eigen::Vector3d(.02, .01, 60), Rising(20));
-  EXPECT_NEAR(ShareOf(effect, JointTerm::kViscous), -.16, .1 * .16);
-  EXPECT_NEAR(ShareOf(effect, JointTerm::kCoulomb), -.15, .1 * .15);
+  EXPECT_NEAR(ShareOf(effect, JointTerm::kViscous), .8 * std::expm1(-.2),
+              .1 * .15);
+  EXPECT_NEAR(ShareOf(effect, JointTerm::kCoulomb), 1.5 * std::expm1(-.1),
+              .1 * .14);
 }
 
 // A bias that grows evenly to .5 N m is half of that in the mean.
