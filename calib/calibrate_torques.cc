@@ -7,6 +7,8 @@
 #include "calib/calibration_details.h"
 #include "calib/drive_gains/estimate_drive_gains.h"
 #include "calib/drive_gains/report.h"
+#include "calib/drive_trains/drive_train.h"
+#include "calib/drive_trains/report.h"
 #include "calib/excite/motion_advice.h"
 #include "calib/excite/segment_selection.h"
 #include "calib/force_torque/report.h"
@@ -147,6 +149,7 @@ class TorqueCalibrator {
   bool Refine(nlohmann::json* json);
   // What the sensor carries, where logs have its columns.
   void AddForceTorque(nlohmann::json* json);
+  void AddDriveTrains(nlohmann::json* json);
   void Draw();
 
   const LinearCalibration& linear() const { return *details_->linear; }
@@ -257,6 +260,15 @@ bool TorqueCalibrator::Refine(nlohmann::json* json) {
   return refined.converged() || !asked_for;
 }
 
+void TorqueCalibrator::AddDriveTrains(nlohmann::json* json) {
+  if (!linear().solved || !training_->has_current()) return;
+  const DriveTrains drives = EstimateDriveTrains(
+      robot_, options_.progress, Prepare(*training_, linear().preparation));
+  if (drives.samples == 0) return;
+  (*json)["drive_trains"] = DriveTrainsJson(drives);
+  summary_.report += DriveTrainsText(drives);
+}
+
 void TorqueCalibrator::AddForceTorque(nlohmann::json* json) {
   if (!linear().solved || !training_->has_wrench()) return;
   const ForceTorqueSensor sensor = EstimateForceTorqueSensor(
@@ -290,7 +302,7 @@ CalibrateSummary TorqueCalibrator::Run() {
   if (options_.progress) options_.progress("opening the logs", -1);
   if (!EstimateGains()) return summary_;
   LogReaderOptions with_sensor = options_.reading;
-  with_sensor.want_wrench = true;
+  with_sensor.want_wrench = with_sensor.want_current = true;
   training_.emplace(input_.logs, with_sensor, input_.crop);
   const LogInput& validation = options_.validation;
   if (!validation.logs.empty()) {
@@ -322,6 +334,7 @@ CalibrateSummary TorqueCalibrator::Run() {
   if (selection_) json["selection"] = ToJson(*selection_, *training_);
   const bool refined = Refine(&json);
   AddForceTorque(&json);
+  AddDriveTrains(&json);
   summary_.json = json.dump(2) + "\n";
   summary_.files.push_back({"calibration.json", summary_.json});
   summary_.files.push_back({"covariance.csv", CovarianceCsv(linear())});

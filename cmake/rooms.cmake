@@ -42,6 +42,7 @@ set(rooms
     calib/fleet         # many logs and robots by their factor files
     calib/verify        # the estimate against Simbody
     calib/force_torque  # what a force-torque sensor on the arm carries
+    calib/drive_trains  # what lies between motor currents and torque sensors
     calib/diagnose/data        # what a diagnosis is made from
     calib/diagnose/changes     # which parameters changed from log to log
     calib/diagnose/candidates  # effects that could explain a gap

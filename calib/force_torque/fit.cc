@@ -140,19 +140,6 @@ double LagOne(const Residuals& left, const ForceTorqueSamples& samples) {
   return most;
 }
 
-// By how much a variance from windows of this length has to be larger for
-// intervals of 1.96 deviations to hold what they should: a long-run variance is
-// itself uncertain where windows are a share b of the series, as Student's t
-// says of few samples. The critical value of Bartlett windows at 95 % is
-//   1.96 + 2.9694 b + .4160 b^2 - .5324 b^3
-// (Kiefer and Vogelsang 2005, Econometric Theory 21, table 1).
-double FixedShareExpansion(int window, long count) {
-  const double b =
-      std::min(1., static_cast<double>(window) / static_cast<double>(count));
-  const double critical = 1.96 + 2.9694 * b + .4160 * b * b - .5324 * b * b * b;
-  return std::pow(critical / 1.96, 2);
-}
-
 // The sandwich H^-1 (S + P) H^-1, H = sum slope J'J + P, P the prior's.
 // Windows are twice as long as Andrews' optimum, for less of a bias.
 void SetCovariance(const ForceTorqueSamples& samples, RobustLoss loss,

@@ -22,10 +22,7 @@ struct ForceTorqueSample {
 using ForceTorqueSamples = std::vector<ForceTorqueSample>;
 
 // Those of all logs that have the sensor's columns (LogReaderOptions::
-// want_wrench), in order of time. What was low-passed at a bandwidth is taken
-// at four times that rate, which loses nothing of it; of longer logs every
-// second sample is left out until there are `most` at most. The robot is a
-// chain.
+// want_wrench), thinned to `most` (ThinnedSamples). The robot is a chain.
 std::vector<ForceTorqueSample> GatherForceTorque(const Robot& robot,
                                                  const Progress& progress,
                                                  const PreparedLogs& logs,

@@ -134,4 +134,11 @@ int BartlettWindow(double rho, long count, int least) {
                   std::max(least, static_cast<int>(std::ceil(width)) + 1));
 }
 
+double FixedShareExpansion(int window, long count) {
+  const double b =
+      std::min(1., static_cast<double>(window) / static_cast<double>(count));
+  const double critical = 1.96 + 2.9694 * b + .4160 * b * b - .5324 * b * b * b;
+  return std::pow(critical / 1.96, 2);
+}
+
 }  // namespace armcal

@@ -64,4 +64,12 @@ class ScoreCovariance {
 // the series.
 int BartlettWindow(double rho, long count, int least);
 
+// By how much a variance from windows of this length has to be larger for
+// intervals of 1.96 deviations to hold what they should: a long-run variance is
+// itself uncertain where windows are a share b of the series, as Student's t
+// says of few samples. The critical value of Bartlett windows at 95 % is
+//   1.96 + 2.9694 b + .4160 b^2 - .5324 b^3
+// (Kiefer and Vogelsang 2005, Econometric Theory 21, table 1).
+double FixedShareExpansion(int window, long count);
+
 }  // namespace armcal

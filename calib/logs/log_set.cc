@@ -22,6 +22,7 @@ LogSet::LogSet(const std::vector<LogSource>& sources,
     r.torque_constants_stddev = std::max(
         r.torque_constants_stddev, r.rows.back().torque_constants_stddev());
     r.has_wrench = r.has_wrench || r.rows.back().has_wrench();
+    r.has_current = r.has_current || r.rows.back().has_current();
     const auto found = log_options.reconstructed_torque.find(source.name);
     r.reconstructed.push_back(found == log_options.reconstructed_torque.end()
                                   ? nullptr
@@ -56,6 +57,8 @@ const ReconstructedTorque* LogSet::reconstructed_torque(int log) const {
 }
 
 bool LogSet::has_wrench() const { return recorded_->has_wrench; }
+
+bool LogSet::has_current() const { return recorded_->has_current; }
 
 const std::shared_ptr<MemoryBudget>& LogSet::memory() const {
   return recorded_->memory;

@@ -44,6 +44,9 @@ class LogSet {
   double torque_constants_stddev() const;
   // Whether any log has a force-torque sensor's columns, which were wanted.
   bool has_wrench() const;
+  // Whether any has motor currents beside the torques of joint sensors, which
+  // were wanted.
+  bool has_current() const;
   // What a log has instead of recorded torques; null where it has these.
   const ReconstructedTorque* reconstructed_torque(int log) const;
   // What passes may keep what they made in.

@@ -27,7 +27,7 @@ struct RecordedLogs {
   std::vector<TimeBase> time_bases;
   std::string torque_source;
   double torque_constants_stddev = 0;
-  bool has_wrench = false;  // any of them
+  bool has_wrench = false, has_current = false;  // any of them
   std::vector<std::shared_ptr<const ReconstructedTorque>> reconstructed;
 
   std::mutex pass;

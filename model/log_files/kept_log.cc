@@ -11,7 +11,7 @@ std::size_t BytesOf(const Log& log) {
   const Eigen::Index numbers = log.t.size() + log.q.size() + log.qd.size() +
                                log.qdd.size() + log.tau.size() +
                                log.qref.size() + log.temperature.size() +
-                               log.wrench.size();
+                               log.wrench.size() + log.current.size();
   return sizeof(Log) + static_cast<std::size_t>(numbers) * sizeof(double);
 }
 
@@ -26,6 +26,7 @@ KeptLog::KeptLog(const LogSource& source, const LogReaderOptions& options,
   torque_source_ = reader_->torque_source();
   torque_constants_stddev_ = reader_->torque_constants_stddev();
   has_wrench_ = reader_->has_wrench();
+  has_current_ = reader_->has_current();
   blocks_.Begin();
 }
 

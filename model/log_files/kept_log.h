@@ -24,6 +24,7 @@ class KeptLog {
   const std::string& torque_source() const { return torque_source_; }
   double torque_constants_stddev() const { return torque_constants_stddev_; }
   bool has_wrench() const { return has_wrench_; }
+  bool has_current() const { return has_current_; }
 
   // The next rows, which live until the next call; null at the end. Throws
   // InputError.
@@ -36,7 +37,7 @@ class KeptLog {
   LogReaderOptions options_;
   std::string torque_source_;
   double torque_constants_stddev_ = 0;
-  bool has_wrench_ = false;
+  bool has_wrench_ = false, has_current_ = false;
   std::optional<LogReader> reader_;  // while the file is open
   Log block_;                        // of a log that is not kept
   KeptItems<Log> blocks_;

@@ -19,6 +19,8 @@ struct Log {
   // Of a force-torque sensor, in its own axes, 6 columns: fx, fy, fz (N), tx,
   // ty, tz (N m).
   Eigen::MatrixXd wrench;
+  // Of the motors, A, where the joints have torque sensors as well.
+  Eigen::MatrixXd current;
   bool simulated = false;  // the log says that a simulation has written it
   long first_row = 0;      // the first sample's line in the file, header = 1
 

@@ -66,6 +66,10 @@ struct LogReader::Impl {
       const std::vector<LogColumn> six = FindWrench(path, columns);
       if (!six.empty()) wrench = row.Use(six);
     }
+    if (options.want_current && columns.HasAll(Signal::kCurrent) &&
+        HasJointTorques(columns, options)) {
+      current = row.Use(columns.Find(Signal::kCurrent));
+    }
     if (!options.need_torque) return;
     const auto found = options.reconstructed_torque.find(path);
     if (found != options.reconstructed_torque.end()) {
@@ -230,6 +234,7 @@ struct LogReader::Impl {
     log->qref = Signals(qref);
     log->temperature = Signals(temperature);
     log->wrench = Values(wrench, kWrenchColumns);
+    log->current = Signals(current);
     return true;
   }
 
@@ -281,7 +286,7 @@ struct LogReader::Impl {
   LogRow row;
   int q = kUnused, qd = kUnused, qdd = kUnused, tau = kUnused;  // in a row
   int qref = kUnused;
-  int temperature = kUnused, wrench = kUnused;
+  int temperature = kUnused, wrench = kUnused, current = kUnused;
   std::string torque_source;
   UnscaledDrives unscaled;
   double torque_constants_stddev = 0;
@@ -317,6 +322,7 @@ bool LogReader::has_torque() const {
 }
 
 bool LogReader::has_wrench() const { return impl_->wrench != Impl::kUnused; }
+bool LogReader::has_current() const { return impl_->current != Impl::kUnused; }
 
 bool LogReader::has_acceleration() const {
   return impl_->columns.HasAll(Signal::kAcceleration);

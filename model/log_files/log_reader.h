@@ -44,8 +44,9 @@ class LogReader {
 
   bool has_velocity() const;  // a velocity column for every joint
   bool has_acceleration() const;
-  bool has_torque() const;  // that is read
-  bool has_wrench() const;  // of a force-torque sensor, that is read
+  bool has_torque() const;   // that is read
+  bool has_wrench() const;   // of a force-torque sensor, that is read
+  bool has_current() const;  // beside torques, that is read
   // How the torque was made, a phrase for reports: "tau columns" or
   // "currents times 14.87 13.26 N m/A"; empty where it is not needed.
   const std::string& torque_source() const;

@@ -63,7 +63,8 @@ struct LogReaderOptions {
   bool want_acceleration = false;
   bool want_reference = false;
   bool want_temperature = false;
-  bool want_wrench = false;  // of a force-torque sensor
+  bool want_wrench = false;   // of a force-torque sensor
+  bool want_current = false;  // of motors, beside torques of joint sensors
 };
 
 }  // namespace armcal

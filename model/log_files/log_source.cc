@@ -33,6 +33,7 @@ std::vector<LogArray> ArraysOf(const Log& log) {
   AddSignal("qref", log.qref, &arrays);
   AddSignal("temp", log.temperature, &arrays);
   AddSignal(kWrenchArray, log.wrench, &arrays);
+  AddSignal("i", log.current, &arrays);
   return arrays;
 }
 

@@ -23,6 +23,7 @@ std::vector<Column> Columns(const Log& log, const LogWriterOptions& options) {
                                  {Signal::kAcceleration, log.qdd}};
   if (options.torque_constants.empty()) {
     columns.push_back({Signal::kEffort, log.tau});
+    columns.push_back({Signal::kCurrent, log.current});
   } else {
     CHECK_EQ(static_cast<long>(options.torque_constants.size()),
              log.tau.cols());

@@ -153,6 +153,13 @@ bool LacksTorque(const LogColumns& columns, const LogReaderOptions& options) {
   return !has_drives || options.torque_constants.empty();
 }
 
+bool HasJointTorques(const LogColumns& columns,
+                     const LogReaderOptions& options) {
+  return columns.HasAll(Signal::kEffort) &&
+         (options.torque_kind == TorqueKind::kAuto ||
+          options.torque_kind == TorqueKind::kLink);
+}
+
 UnscaledDrives FindUnscaledDrives(const LogColumns& columns,
                                   const LogReaderOptions& options) {
   if (!options.torque_constants.empty()) return {};

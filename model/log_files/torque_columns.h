@@ -38,6 +38,11 @@ TorqueColumns FindTorqueColumns(const std::string& file,
 // "its scale known to 5 % (--torque_constants_stddev)", a phrase for reports.
 std::string ScaleText(double scale_stddev);
 
+// Whether its torques are those of the joints themselves, for all that the
+// options say: of sensors behind the gears, not of motors or commands.
+bool HasJointTorques(const LogColumns& columns,
+                     const LogReaderOptions& options);
+
 // Whether there is nothing in the log to make a torque of: no torques, and no
 // currents or voltages or no constants for them. A part of the joints is no
 // nothing.

@@ -35,8 +35,8 @@ void Resampler::Append(const Log& block, int row, int count) {
   const double* const t = block.t.data() + row;
   times_.insert(times_.end(), t, t + count);
   const std::array<const Eigen::MatrixXd*, kSignals> signals = {
-      &block.q,   &block.tau,         &block.qd,
-      &block.qdd, &block.temperature, &block.wrench};
+      &block.q,           &block.tau,    &block.qd,     &block.qdd,
+      &block.temperature, &block.wrench, &block.current};
   size_t at = 0;
   for (int s = 0; s < kSignals; ++s) {
     widths_[s] = static_cast<int>(signals[s]->cols());
@@ -110,7 +110,8 @@ void Resampler::Sample(long begin, long end, Log* out) const {
     return sum;
   };
   const std::array<Eigen::MatrixXd*, kSignals> signals = {
-      &out->q, &out->tau, &out->qd, &out->qdd, &out->temperature, &out->wrench};
+      &out->q,           &out->tau,    &out->qd,     &out->qdd,
+      &out->temperature, &out->wrench, &out->current};
   size_t at = 0;
   for (int s = 0; s < kSignals; ++s) {
     signals[s]->resize(widths_[s] > 0 ? rows : 0, widths_[s]);

@@ -31,8 +31,8 @@ class Resampler {
   void Sample(long begin, long end, Log* out) const;
 
  private:
-  // q, tau, qd, qdd, temperature, wrench.
-  static constexpr int kSignals = 6;
+  // q, tau, qd, qdd, temperature, wrench, current.
+  static constexpr int kSignals = 7;
   // The samples between which a grid point lies, and their weights.
   struct Neighbours {
     size_t first;

@@ -33,7 +33,7 @@ std::size_t BytesOf(const Trajectory& t) {
                          t.samples.tau.size() + t.standstill.size();
   for (const Eigen::MatrixXd* x :
        {&t.q, &t.qd, &t.qdd, &t.friction_q, &t.friction_qd, &t.tau,
-        &t.tau_recorded, &t.temperature, &t.wrench}) {
+        &t.tau_recorded, &t.temperature, &t.wrench, &t.current}) {
     numbers += x->size();
   }
   return (static_cast<std::size_t>(numbers) + t.samples.row.size()) *
@@ -240,13 +240,15 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   t.qdd = raw && grid.qdd.size() > 0 ? std::move(grid.qdd)
                                      : Differentiate(t.qd, t.dt);
   t.temperature = std::move(grid.temperature);
+  t.current = std::move(grid.current);
   // As the positions are, so that it goes with the accelerations made of them.
   t.wrench = raw || grid.wrench.size() == 0
                  ? std::move(grid.wrench)
                  : ZeroPhaseLowPass(grid.wrench, 1 / base.dt, bandwidth);
   if (thin > 1) {
     const bool as_recorded = t.tau == t.tau_recorded;
-    for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded}) {
+    for (Eigen::MatrixXd* x : {&t.tau, &t.tau_recorded, &t.current}) {
+      if (x->size() == 0) continue;
       *x = x == &t.tau_recorded && as_recorded
                ? t.tau
                : Thin(ZeroPhaseLowPass(*x, 1 / t.dt, wide), thin);

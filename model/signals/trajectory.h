@@ -35,6 +35,8 @@ struct Trajectory {
   Eigen::MatrixXd temperature;   // deg C; empty: not recorded, or not wanted
   // Log::wrench (N, N m), low-passed as q is; empty: not recorded, not wanted.
   Eigen::MatrixXd wrench;
+  // Log::current (A), as `tau_recorded` is; empty: not recorded, not wanted.
+  Eigen::MatrixXd current;
   // All |qd| below 1e-3 rad/s (m/s) for 0.5 s or longer; qd here is the mean
   // over 0.2 s of positions low-passed at kTorqueBand times the bandwidth,
   // which rings less after a stop than `qd`.

@@ -65,6 +65,30 @@ double ValueOf(const CalibrateSummary& summary, const std::string& name) {
   return 0;
 }
 
+// A motor of 12 N m/A behind a gear of its own inertia and friction.
+TEST(Doors, CalibrateTellsWhatLiesBeforeATorqueSensor) {
+  Pendulum pendulum;
+  Log& log = pendulum.log;
+  const Eigen::ArrayXd t = log.t.array();
+  const Eigen::ArrayXd qd = 2 * (2 * t).cos() + .3 * 5.3 * (5.3 * t).cos();
+  const Eigen::ArrayXd qdd =
+      -4 * (2 * t).sin() - .3 * 5.3 * 5.3 * (5.3 * t).sin();
+  log.current =
+      (log.tau.array() + .1 * qdd + .5 * qd + .8 * (qd / .01).tanh()) / 12;
+  const CalibrateSummary summary =
+      Calibrate(pendulum.robot, pendulum.InMemory(), OneTerm());
+  const auto json = nlohmann::json::parse(summary.json);
+  const auto& drive = json["drive_trains"]["joints"][0];
+  EXPECT_EQ(drive["joint"], "hinge");
+  EXPECT_EQ(drive["unit"], "N m/A");
+  EXPECT_NEAR(drive["torque_constant"], 12, .05);
+  EXPECT_NEAR(drive["armature"], .1, .01);
+  EXPECT_NEAR(drive["viscous"], .5, .03);
+  EXPECT_NEAR(drive["coulomb"], .8, .05);
+  EXPECT_THAT(summary.report, HasSubstr("joint torque sensors"));
+  EXPECT_NEAR(ValueOf(summary, "hinge.viscous"), .3, .01);
+}
+
 TEST(Doors, CalibrateFindsAPendulumInMemory) {
   const Pendulum pendulum;
   CalibrateOptions options = OneTerm();
