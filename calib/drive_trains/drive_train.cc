@@ -25,6 +25,10 @@ constexpr double kSameSignal = 1e-3;
 // friction, by this share of the latter (as in docs/thresholds.md).
 constexpr double kCurve = .1;
 
+// What is left may go with any column, in the worst case. It is then at most a
+// third of what tells the torque constant.
+constexpr double kAboveRest = 3;
+
 constexpr int kWidths = static_cast<int>(kSignWidths.size());
 
 // The current as torques and motion make it, which is linear in these:
@@ -33,12 +37,18 @@ constexpr int kWidths = static_cast<int>(kSignWidths.size());
 // what is fitted, which robust losses bound; among columns nothing would.
 // Behind the unknowns' columns are those of what friction's curve may have
 // more of: of a sign that changes over each of the other widths instead.
-MatrixXd ColumnsOf(const std::vector<DriveTrainSample>& samples, int joint,
-                   int width) {
-  MatrixXd columns(samples.size(), DriveTrain::kUnknowns + kWidths - 1);
-  for (size_t k = 0; k < samples.size(); ++k) {
+//
+// Noise of the torque's column would draw 1/K towards 0 where it is not small
+// beside what the torque varies by; the torque beside is its instrument.
+RegressionRows RowsOf(const std::vector<DriveTrainSample>& samples, int joint,
+                      int width) {
+  const auto count = static_cast<Eigen::Index>(samples.size());
+  RegressionRows rows;
+  rows.A.resize(count, DriveTrain::kUnknowns + kWidths - 1);
+  rows.y.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) {
     const DriveTrainSample& s = samples[k];
-    auto row = columns.row(static_cast<Eigen::Index>(k));
+    auto row = rows.A.row(k);
     row[DriveTrain::kTorqueConstant] = s.torque[joint];
     row[DriveTrain::kArmature] = s.qdd[joint];
     row[DriveTrain::kViscous] = s.qd[joint];
@@ -50,34 +60,49 @@ MatrixXd ColumnsOf(const std::vector<DriveTrainSample>& samples, int joint,
       if (w == width) continue;
       row[at++] = s.sign(joint, w) - s.sign(joint, width);
     }
+    rows.y[k] = s.current[joint];
+    rows.follows.push_back(s.follows);
   }
-  return columns;
+  rows.Z = rows.A;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    rows.Z(k, DriveTrain::kTorqueConstant) = samples[k].torque_beside[joint];
+    rows.Z(k, DriveTrain::kLoadFriction) =
+        samples[k].loaded_sign_beside(joint, width);
+  }
+  return rows;
 }
 
-// Of x in ColumnsOf(), `coulomb` among it: the unknowns have no prior, the
+// Of x in RowsOf(), `coulomb` among it: the unknowns have no prior, the
 // curve's columns share one.
 VectorXd PriorOf(double coulomb) {
   VectorXd prior = VectorXd::Constant(DriveTrain::kUnknowns + kWidths - 1,
                                       std::numeric_limits<double>::infinity());
   prior.tail(kWidths - 1)
-      .setConstant(kCurve * std::abs(coulomb) / std::sqrt(kWidths - 1.));
+      .setConstant(kCurve * coulomb / std::sqrt(kWidths - 1.));
   return prior;
 }
 
-// The width of the sign that leaves least, an index, and C / K there.
+// The width of the sign that leaves least, an index, and C / K there; never 0,
+// as nothing would be left open of the curve by a share of it.
 std::pair<int, double> ChooseWidth(const std::vector<DriveTrainSample>& samples,
-                                   int joint, const VectorXd& current,
-                                   const std::vector<bool>& follows) {
+                                   int joint) {
   std::pair<int, double> best;
   double least = std::numeric_limits<double>::infinity();
   for (int w = 0; w < kWidths; ++w) {
-    const RobustRegression fit = FitRobustly(
-        ColumnsOf(samples, joint, w).leftCols(DriveTrain::kUnknowns), current,
-        follows, PriorOf(0).head(DriveTrain::kUnknowns));
+    RegressionRows rows = RowsOf(samples, joint, w);
+    rows.A = rows.A.leftCols(DriveTrain::kUnknowns).eval();
+    rows.Z = rows.Z.leftCols(DriveTrain::kUnknowns).eval();
+    rows.prior = PriorOf(1).head(DriveTrain::kUnknowns);
+    const RobustRegression fit = FitRobustly(rows);
     if (!(fit.noise < least)) continue;
     least = fit.noise;
     best = {w, fit.x[DriveTrain::kCoulomb]};
   }
+  double most = 0;
+  for (const DriveTrainSample& s : samples) {
+    most = std::max(most, std::abs(s.current[joint]));
+  }
+  best.second = std::max(std::abs(best.second), 1e-9 * most);
   return best;
 }
 
@@ -95,6 +120,19 @@ void SetUnknowns(const RobustRegression& fit, DriveTrain* found) {
                       .diagonal()
                       .cwiseSqrt();
   found->told = fit.told.head(n);
+}
+
+// rms of the torque that the joint's own motion does not make, N m or N: of a
+// light link nearly all goes with its acceleration, as the rotor's inertia
+// does.
+double OwnPart(const RegressionRows& rows) {
+  const VectorXd torque = rows.A.col(DriveTrain::kTorqueConstant);
+  MatrixXd others = rows.A.leftCols(DriveTrain::kUnknowns);
+  others.col(DriveTrain::kTorqueConstant).setZero();
+  others.col(DriveTrain::kLoadFriction).setZero();
+  const VectorXd left =
+      torque - others * others.colPivHouseholderQr().solve(torque);
+  return left.norm() / std::sqrt(static_cast<double>(left.size()));
 }
 
 bool IsConstant(const VectorXd& x) {
@@ -140,19 +178,23 @@ DriveTrain FitDriveTrain(const std::vector<DriveTrainSample>& samples,
   found.stddev.setZero();
   found.told.setConstant(false);
   VectorXd torque(samples.size()), current(samples.size());
-  std::vector<bool> follows;
   for (size_t k = 0; k < samples.size(); ++k) {
     torque[static_cast<Eigen::Index>(k)] = samples[k].torque[joint];
     current[static_cast<Eigen::Index>(k)] = samples[k].current[joint];
-    follows.push_back(samples[k].follows);
   }
   found.not_told = WhyNothing(samples, joint, torque, current);
   if (!found.not_told.empty()) return found;
-  const auto [width, coulomb] = ChooseWidth(samples, joint, current, follows);
-  const RobustRegression fit = FitRobustly(ColumnsOf(samples, joint, width),
-                                           current, follows, PriorOf(coulomb));
-  if (!(std::abs(fit.x[DriveTrain::kTorqueConstant]) > 0)) {
-    found.not_told = "the current does not go with the torque";
+  const auto [width, coulomb] = ChooseWidth(samples, joint);
+  RegressionRows rows = RowsOf(samples, joint, width);
+  rows.prior = PriorOf(coulomb);
+  const RobustRegression fit = FitRobustly(rows);
+  const double told =
+      std::abs(fit.x[DriveTrain::kTorqueConstant]) * OwnPart(rows);
+  if (!(told > kAboveRest * fit.spread)) {
+    found.not_told = Format(
+        "of the current %.2g A goes with what the torque has beside the "
+        "joint's own motion, and %.2g A with nothing",
+        told, fit.spread);
     return found;
   }
   SetUnknowns(fit, &found);

@@ -1,6 +1,6 @@
 #include "calib/drive_trains/robust_regression.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -41,23 +41,32 @@ std::vector<int> ColumnsToFit(const MatrixXd& A, const VectorXd& prior) {
   return columns;
 }
 
-VectorXd Reweighted(const MatrixXd& A, const VectorXd& y,
-                    const VectorXd& information, VectorXd* left) {
-  constexpr int kSteps = 15;  // of each loss
-  VectorXd x = A.colPivHouseholderQr().solve(y);
-  *left = y - A * x;
+// In units of the columns' lengths, `information` the prior's.
+struct ScaledRows {
+  MatrixXd A, Z;
+  const VectorXd& y;
+  VectorXd information;
+};
+
+VectorXd Reweighted(const ScaledRows& rows, VectorXd* left) {
+  constexpr int kMostSteps = 15;       // of each loss
+  constexpr double kSmallStep = 1e-4;  // of the noise of a column's x
+  VectorXd x = rows.A.colPivHouseholderQr().solve(rows.y);
+  *left = rows.y - rows.A * x;
   for (const RobustLoss loss : {RobustLoss::kHuber, RobustLoss::kTukey}) {
-    for (int step = 0; step < kSteps; ++step) {
-      const double noise = RobustNoise(*left, y);
-      VectorXd weight(y.size());
-      for (Eigen::Index k = 0; k < y.size(); ++k) {
+    for (int step = 0; step < kMostSteps; ++step) {
+      const double noise = RobustNoise(*left, rows.y);
+      VectorXd weight(rows.y.size());
+      for (Eigen::Index k = 0; k < weight.size(); ++k) {
         weight[k] = EvaluateLoss(loss, (*left)[k] / noise).weight;
       }
-      const MatrixXd weighted = weight.asDiagonal() * A;
-      MatrixXd H = weighted.transpose() * A;
-      H.diagonal() += noise * noise * information;
-      x = H.ldlt().solve(weighted.transpose() * y);
-      *left = y - A * x;
+      const MatrixXd weighted = weight.asDiagonal() * rows.Z;
+      MatrixXd H = weighted.transpose() * rows.A;
+      H.diagonal() += noise * noise * rows.information;
+      const VectorXd before = x;
+      x = H.partialPivLu().solve(weighted.transpose() * rows.y);
+      *left = rows.y - rows.A * x;
+      if ((x - before).norm() < kSmallStep * noise) break;
     }
   }
   return x;
@@ -73,26 +82,25 @@ double LagOne(const VectorXd& left, const std::vector<bool>& follows) {
   return square > 0 ? product / square : 0;
 }
 
-// The sandwich H^-1 (S + P) H^-1, H = sum slope a a' + P, P the prior's.
+// The sandwich H^-1 (S + P) H^-T, H = sum slope z a' + P, P the prior's.
 // Windows are twice as long as Andrews' optimum, for less of a bias.
-MatrixXd CovarianceOf(const MatrixXd& A, const VectorXd& left, double noise,
-                      const VectorXd& information,
-                      const std::vector<bool>& follows) {
+MatrixXd CovarianceOf(const ScaledRows& rows, const VectorXd& left,
+                      double noise, const std::vector<bool>& follows) {
   constexpr int kLeastWindow = 8;  // the low pass makes four or so follow
-  const auto p = static_cast<int>(A.cols());
-  const MatrixXd P = (noise * noise * information).asDiagonal();
+  const auto p = static_cast<int>(rows.A.cols());
+  const MatrixXd P = (noise * noise * rows.information).asDiagonal();
   MatrixXd H = P;
   std::vector<Score> scores;
   VectorXd weighted = left;
   for (Eigen::Index k = 0; k < left.size(); ++k) {
     const LossAt at = EvaluateLoss(RobustLoss::kTukey, left[k] / noise);
     const double slope = std::max(0., at.slope);
-    const MatrixXd a = A.row(k);
-    H += slope * a.transpose() * a;
+    const MatrixXd a = rows.A.row(k), z = rows.Z.row(k);
+    H += slope * z.transpose() * a;
     weighted[k] *= at.weight;
-    scores.push_back({weighted[k] * a.transpose(), a, slope * a});
+    scores.push_back({weighted[k] * z.transpose(), z, slope * a});
   }
-  const MatrixXd gain = H.ldlt().solve(MatrixXd::Identity(p, p));
+  const MatrixXd gain = H.partialPivLu().inverse();
   const auto count = static_cast<long>(left.size());
   const int window =
       2 * BartlettWindow(LagOne(weighted, follows), count, kLeastWindow);
@@ -109,33 +117,31 @@ MatrixXd CovarianceOf(const MatrixXd& A, const VectorXd& left, double noise,
 
 }  // namespace
 
-RobustRegression FitRobustly(const MatrixXd& A, const VectorXd& y,
-                             const std::vector<bool>& follows,
-                             const VectorXd& prior) {
-  const Eigen::Index all = A.cols();
-  const VectorXd length = A.colwise().norm().transpose().cwiseMax(1e-300);
-  const MatrixXd scaled = A * length.cwiseInverse().asDiagonal();
-  const std::vector<int> told = ColumnsToFit(scaled, prior);
-  const MatrixXd some = scaled(Eigen::all, told);
+RobustRegression FitRobustly(const RegressionRows& rows) {
+  const Eigen::Index all = rows.A.cols();
+  const VectorXd unit =
+      rows.A.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
+  const std::vector<int> told =
+      ColumnsToFit(rows.A * unit.asDiagonal(), rows.prior);
+  const VectorXd units = unit(told);
+  const ScaledRows scaled = {
+      rows.A(Eigen::all, told) * units.asDiagonal(),
+      rows.Z(Eigen::all, told) * units.asDiagonal(), rows.y,
+      rows.prior(told).cwiseQuotient(units).cwiseAbs2().cwiseInverse()};
   RobustRegression fit;
   fit.x = VectorXd::Zero(all);
   fit.covariance = MatrixXd::Zero(all, all);
   fit.told.setConstant(all, false);
-  // Of x in units of the columns' lengths.
-  const VectorXd information =
-      prior.cwiseProduct(length).cwiseAbs2().cwiseInverse()(told);
   VectorXd left;
-  const VectorXd x = Reweighted(some, y, information, &left);
-  fit.noise = RobustNoise(left, y);
-  fit.rms = left.norm() / std::sqrt(static_cast<double>(y.size()));
+  fit.x(told) = units.cwiseProduct(Reweighted(scaled, &left));
+  fit.noise = RobustNoise(left, rows.y);
+  fit.rms = left.norm() / std::sqrt(static_cast<double>(left.size()));
+  const VectorXd size = left.cwiseAbs();
+  fit.spread = Quantile({size.begin(), size.end()}, .9) / 1.645;
   fit.covariance(told, told) =
-      CovarianceOf(some, left, fit.noise, information, follows);
-  fit.x(told) = x;
+      units.asDiagonal() * CovarianceOf(scaled, left, fit.noise, rows.follows) *
+      units.asDiagonal();
   for (const int k : told) fit.told[k] = true;
-  const VectorXd unit = length.cwiseInverse();
-  fit.x = fit.x.cwiseProduct(unit).eval();
-  fit.covariance =
-      (unit.asDiagonal() * fit.covariance * unit.asDiagonal()).eval();
   return fit;
 }
 

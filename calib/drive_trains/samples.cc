@@ -1,5 +1,8 @@
 #include "calib/drive_trains/samples.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "calib/logs/thinned_samples.h"
 #include "model/signals/low_pass.h"
 
@@ -8,22 +11,52 @@ namespace {
 
 using Eigen::MatrixXd;
 
+using OfWidths = std::array<MatrixXd, kSignWidths.size()>;
+
+// The mean of each column `rows` before and after, at its ends of what there
+// is.
+MatrixXd Beside(const MatrixXd& x, Eigen::Index rows) {
+  MatrixXd beside(x.rows(), x.cols());
+  for (Eigen::Index k = 0; k < x.rows(); ++k) {
+    beside.row(k) = (x.row(std::max<Eigen::Index>(0, k - rows)) +
+                     x.row(std::min(x.rows() - 1, k + rows))) /
+                    2;
+  }
+  return beside;
+}
+
+MatrixXd ColumnsOfJoints(const OfWidths& signals, int row) {
+  MatrixXd columns(signals[0].cols(), kSignWidths.size());
+  for (size_t w = 0; w < kSignWidths.size(); ++w) {
+    columns.col(static_cast<Eigen::Index>(w)) = signals[w].row(row).transpose();
+  }
+  return columns;
+}
+
 // A trajectory's signals at the bandwidth, rows for samples.
 struct SmoothSignals {
-  MatrixXd current, torque;
-  std::array<MatrixXd, kSignWidths.size()> sign, loaded_sign;
+  MatrixXd current, torque, torque_beside;
+  OfWidths sign, loaded_sign, loaded_sign_beside;
 
   SmoothSignals(const Trajectory& t, double bandwidth_hz) {
+    constexpr int kRowsApart = 2;  // of signals as recorded
     const auto smooth = [&](const MatrixXd& x) -> MatrixXd {
       return bandwidth_hz > 0 ? ZeroPhaseLowPass(x, 1 / t.dt, bandwidth_hz) : x;
     };
+    const Eigen::Index apart =
+        bandwidth_hz > 0 ? std::lround(1 / (bandwidth_hz * t.dt)) : kRowsApart;
     current = smooth(t.current);
     torque = smooth(t.tau);
+    torque_beside = Beside(torque, apart);
     const MatrixXd& qd = t.friction_qd.size() > 0 ? t.friction_qd : t.qd;
     for (size_t w = 0; w < kSignWidths.size(); ++w) {
       const MatrixXd turns = (qd / kSignWidths[w]).array().tanh();
+      const auto loaded = [&](const MatrixXd& tau) {
+        return smooth(tau.cwiseAbs().cwiseProduct(turns));
+      };
       sign[w] = smooth(turns);
-      loaded_sign[w] = smooth(torque.cwiseAbs().cwiseProduct(turns));
+      loaded_sign[w] = loaded(torque);
+      loaded_sign_beside[w] = loaded(torque_beside);
     }
   }
 
@@ -31,15 +64,12 @@ struct SmoothSignals {
     DriveTrainSample sample;
     sample.current = current.row(row).transpose();
     sample.torque = torque.row(row).transpose();
+    sample.torque_beside = torque_beside.row(row).transpose();
     sample.qd = t.qd.row(row).transpose();
     sample.qdd = t.qdd.row(row).transpose();
-    sample.sign.resize(t.num_joints(), kSignWidths.size());
-    sample.loaded_sign = sample.sign;
-    for (size_t w = 0; w < kSignWidths.size(); ++w) {
-      const auto column = static_cast<Eigen::Index>(w);
-      sample.sign.col(column) = sign[w].row(row).transpose();
-      sample.loaded_sign.col(column) = loaded_sign[w].row(row).transpose();
-    }
+    sample.sign = ColumnsOfJoints(sign, row);
+    sample.loaded_sign = ColumnsOfJoints(loaded_sign, row);
+    sample.loaded_sign_beside = ColumnsOfJoints(loaded_sign_beside, row);
     return sample;
   }
 };

@@ -22,15 +22,20 @@ struct DriveTrainSample {
   bool follows = false;     // the sample before it, without a gap
   Eigen::VectorXd current;  // A, n entries
   Eigen::VectorXd torque;   // N m or N
+  // The torque one period of the bandwidth before and after, their mean: it
+  // goes with the torque and has other noise.
+  Eigen::VectorXd torque_beside;
   Eigen::VectorXd qd, qdd;  // rad/s or m/s, rad/s^2 or m/s^2
   // n x kSignWidths: the sign of the velocity, and |torque| times that.
   Eigen::MatrixXd sign, loaded_sign;
+  // The latter of torque_beside.
+  Eigen::MatrixXd loaded_sign_beside;
 };
 
 // Those of all logs that have motor currents beside torques (LogReaderOptions::
 // want_current), thinned to `most` (ThinnedSamples).
 std::vector<DriveTrainSample> GatherDriveTrains(const Progress& progress,
                                                 const PreparedLogs& logs,
-                                                long most = 1 << 15);
+                                                long most = 1 << 13);
 
 }  // namespace armcal

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "model/log_files/log_reader.h"
+#include "model/log_files/log_writer.h"
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 
@@ -47,6 +49,34 @@ TEST(TorqueColumns, AreTakenAsTheyAre) {
             "commanded tau columns: 1*1 2*1");
   EXPECT_EQ(Find("t,tau1 [mNm],tau2", Options(TorqueKind::kLink)),
             "tau columns: 1*0.001 2*1");
+}
+
+// Currents beside them are read where they are wanted and the torques are the
+// joints' own; from text and from arrays.
+TEST(TorqueColumns, CurrentsStandBesideJointTorques) {
+  Log log;
+  log.t = Eigen::Vector3d(0, .004, .008);
+  log.q = Eigen::MatrixXd::Random(3, 2);
+  log.tau = Eigen::MatrixXd::Random(3, 2);
+  log.current = Eigen::MatrixXd::Random(3, 2);
+  const auto read = [&](const LogSource& source, TorqueKind kind, bool want) {
+    LogReaderOptions options = Options(kind);
+    options.want_current = want;
+    LogReader reader(source, options);
+    Log back;
+    reader.Read(10, &back);
+    EXPECT_EQ(reader.has_current(), back.current.size() > 0);
+    return back.current;
+  };
+  for (const LogSource& source :
+       {LogSource(WriteFile(LogText(log))), LogSource("memory", log)}) {
+    EXPECT_TRUE(
+        read(source, TorqueKind::kAuto, true).isApprox(log.current, 1e-8));
+    EXPECT_EQ(read(source, TorqueKind::kAuto, false).size(), 0);
+    EXPECT_EQ(read(source, TorqueKind::kMotor, true).size(), 0);
+  }
+  log.current.resize(0, 0);
+  EXPECT_EQ(read({"memory", log}, TorqueKind::kAuto, true).size(), 0);
 }
 
 TEST(TorqueColumns, AreMultipliedByGearRatios) {
