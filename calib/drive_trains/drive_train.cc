@@ -19,7 +19,7 @@ constexpr double kMoves = .02;  // rad/s or m/s
 constexpr int kFewestSamples = 20 * DriveTrain::kUnknowns;
 // A gear takes more than this share of what a motor gives: a torque from which
 // the current follows more exactly was made of it.
-constexpr double kSameSignal = 1e-3;
+constexpr double kSameSignal = 1e-2;
 
 // Friction's curve over speed may be another one than viscous and Coulomb
 // friction, by this share of the latter (as in docs/thresholds.md).
@@ -122,17 +122,24 @@ void SetUnknowns(const RobustRegression& fit, DriveTrain* found) {
   found->told = fit.told.head(n);
 }
 
-// rms of the torque that the joint's own motion does not make, N m or N: of a
-// light link nearly all goes with its acceleration, as the rotor's inertia
-// does.
-double OwnPart(const RegressionRows& rows) {
-  const VectorXd torque = rows.A.col(DriveTrain::kTorqueConstant);
+// Of the torque (its column of A or Z) what the joint's own motion does not
+// make, N m or N: of a light link nearly all goes with its acceleration, as the
+// rotor's inertia does.
+VectorXd OwnPart(const RegressionRows& rows, const MatrixXd& columns) {
+  const VectorXd torque = columns.col(DriveTrain::kTorqueConstant);
   MatrixXd others = rows.A.leftCols(DriveTrain::kUnknowns);
   others.col(DriveTrain::kTorqueConstant).setZero();
   others.col(DriveTrain::kLoadFriction).setZero();
-  const VectorXd left =
-      torque - others * others.colPivHouseholderQr().solve(torque);
-  return left.norm() / std::sqrt(static_cast<double>(left.size()));
+  return torque - others * others.colPivHouseholderQr().solve(torque);
+}
+
+// An instrument that hardly goes with what it stands for makes anything of it
+// (Staiger and Stock 1997): of a motion near a quarter of the bandwidth the
+// torque beside is none. Least squares then.
+void DropWeakInstrument(RegressionRows* rows) {
+  constexpr double kWeak = .3;  // correlation
+  const VectorXd a = OwnPart(*rows, rows->A), z = OwnPart(*rows, rows->Z);
+  if (!(a.dot(z) > kWeak * a.norm() * z.norm())) rows->Z = rows->A;
 }
 
 bool IsConstant(const VectorXd& x) {
@@ -187,9 +194,11 @@ DriveTrain FitDriveTrain(const std::vector<DriveTrainSample>& samples,
   const auto [width, coulomb] = ChooseWidth(samples, joint);
   RegressionRows rows = RowsOf(samples, joint, width);
   rows.prior = PriorOf(coulomb);
+  DropWeakInstrument(&rows);
   const RobustRegression fit = FitRobustly(rows);
-  const double told =
-      std::abs(fit.x[DriveTrain::kTorqueConstant]) * OwnPart(rows);
+  const double told = std::abs(fit.x[DriveTrain::kTorqueConstant]) *
+                      OwnPart(rows, rows.A).norm() /
+                      std::sqrt(static_cast<double>(samples.size()));
   if (!(told > kAboveRest * fit.spread)) {
     found.not_told = Format(
         "of the current %.2g A goes with what the torque has beside the "

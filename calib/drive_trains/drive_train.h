@@ -42,10 +42,10 @@ struct DriveTrains {
 };
 
 // Each joint by itself: no lengths, masses or other joints are in its equation.
-// Maximum likelihood by iteratively reweighted least squares, Huber's loss
-// first and Tukey's at last, at the width of the sign that leaves least. The
-// covariance is the sandwich of the information and the scores' long-run
-// covariance (ScoreCovariance).
+// Normal equations with an instrument for the torque (where it is one), weighed
+// by Huber's loss first and Tukey's at last, at the width of the sign that
+// leaves least. The covariance is the sandwich of their slope and the scores'
+// long-run covariance (ScoreCovariance).
 DriveTrain FitDriveTrain(const std::vector<DriveTrainSample>& samples,
                          int joint);
 

@@ -57,7 +57,8 @@ json DriveTrainsJson(const DriveTrains& drives) {
 std::string DriveTrainsText(const DriveTrains& drives) {
   if (drives.joints.empty()) return "";
   std::string text = Format(
-      "\nbetween motor currents and joint torque sensors\n%-12s%20s%20s%20s%20s"
+      "\nbetween motor currents and the log's joint "
+      "torques\n%-12s%20s%20s%20s%20s"
       "%20s%10s\n",
       "", "torque per ampere", "armature", "viscous", "coulomb", "of load",
       "left");

@@ -1,5 +1,6 @@
 #include "calib/drive_trains/robust_regression.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -24,20 +25,34 @@ double RobustNoise(const VectorXd& left, const VectorXd& y) {
                    kRounding * y.cwiseAbs().maxCoeff(), 1e-12});
 }
 
-// Of columns of length 1, those with a prior, and of the others those that are
-// not combinations of each other.
-std::vector<int> ColumnsToFit(const MatrixXd& A, const VectorXd& prior) {
-  constexpr double kDependent = 1e-6;
+// Of columns of length 1 (or 0, which are left out) those with a prior, and of
+// the others as many as are not combinations of each other. `told`: of these,
+// those that no combination holds, so that what is fitted is their own.
+std::vector<int> ColumnsToFit(const MatrixXd& A, const VectorXd& prior,
+                              Eigen::Array<bool, Eigen::Dynamic, 1>* told) {
+  constexpr double kDependent = 1e-6, kInCombination = 1e-2;
   std::vector<int> columns, free;
+  told->setConstant(A.cols(), false);
   for (int k = 0; k < static_cast<int>(A.cols()); ++k) {
+    if (A.col(k).squaredNorm() < .5) continue;
     (std::isfinite(prior[k]) ? columns : free).push_back(k);
   }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(A(Eigen::all, free));
+  for (const int k : columns) (*told)[k] = true;
+  const MatrixXd some = A(Eigen::all, free);
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(some);
   qr.setThreshold(kDependent);
   for (int k = 0; k < qr.rank(); ++k) {
     columns.push_back(free[qr.colsPermutation().indices()[k]]);
   }
   std::sort(columns.begin(), columns.end());
+  // Right singular vectors of what is (nearly) 0 are the combinations.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(some.transpose() * some);
+  const MatrixXd combinations =
+      eigen.eigenvectors().leftCols(some.cols() - qr.rank());
+  for (size_t k = 0; k < free.size(); ++k) {
+    (*told)[free[k]] =
+        combinations.row(static_cast<Eigen::Index>(k)).norm() < kInCombination;
+  }
   return columns;
 }
 
@@ -94,7 +109,7 @@ MatrixXd CovarianceOf(const ScaledRows& rows, const VectorXd& left,
   VectorXd weighted = left;
   for (Eigen::Index k = 0; k < left.size(); ++k) {
     const LossAt at = EvaluateLoss(RobustLoss::kTukey, left[k] / noise);
-    const double slope = std::max(0., at.slope);
+    const double slope = at.slope;  // below 0 of gross errors (robust_loss.cc)
     const MatrixXd a = rows.A.row(k), z = rows.Z.row(k);
     H += slope * z.transpose() * a;
     weighted[k] *= at.weight;
@@ -118,20 +133,20 @@ MatrixXd CovarianceOf(const ScaledRows& rows, const VectorXd& left,
 }  // namespace
 
 RobustRegression FitRobustly(const RegressionRows& rows) {
+  constexpr double kNothing = 1e-100;  // shorter columns are 0
   const Eigen::Index all = rows.A.cols();
   const VectorXd unit =
-      rows.A.colwise().norm().transpose().cwiseMax(1e-300).cwiseInverse();
+      rows.A.colwise().norm().transpose().cwiseMax(kNothing).cwiseInverse();
+  RobustRegression fit;
   const std::vector<int> told =
-      ColumnsToFit(rows.A * unit.asDiagonal(), rows.prior);
+      ColumnsToFit(rows.A * unit.asDiagonal(), rows.prior, &fit.told);
   const VectorXd units = unit(told);
   const ScaledRows scaled = {
       rows.A(Eigen::all, told) * units.asDiagonal(),
       rows.Z(Eigen::all, told) * units.asDiagonal(), rows.y,
       rows.prior(told).cwiseQuotient(units).cwiseAbs2().cwiseInverse()};
-  RobustRegression fit;
   fit.x = VectorXd::Zero(all);
   fit.covariance = MatrixXd::Zero(all, all);
-  fit.told.setConstant(all, false);
   VectorXd left;
   fit.x(told) = units.cwiseProduct(Reweighted(scaled, &left));
   fit.noise = RobustNoise(left, rows.y);
@@ -141,7 +156,6 @@ RobustRegression FitRobustly(const RegressionRows& rows) {
   fit.covariance(told, told) =
       units.asDiagonal() * CovarianceOf(scaled, left, fit.noise, rows.follows) *
       units.asDiagonal();
-  for (const int k : told) fit.told[k] = true;
   return fit;
 }
 

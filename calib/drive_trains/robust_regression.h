@@ -8,7 +8,8 @@ namespace armcal {
 struct RobustRegression {
   Eigen::VectorXd x;
   Eigen::MatrixXd covariance;  // 0 in the rows and columns of what is not told
-  // Whether a column adds to those that are told; x is 0 where it does not.
+  // Whether x is the column's own: of columns that are combinations of each
+  // other some are fitted for all.
   Eigen::Array<bool, Eigen::Dynamic, 1> told;
   double noise = 0;  // 1.4826 times the median of what is left
   double rms = 0;    // of what is left

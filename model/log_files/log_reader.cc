@@ -66,9 +66,8 @@ struct LogReader::Impl {
       const std::vector<LogColumn> six = FindWrench(path, columns);
       if (!six.empty()) wrench = row.Use(six);
     }
-    if (options.want_current && columns.HasAll(Signal::kCurrent) &&
-        HasJointTorques(columns, options)) {
-      current = row.Use(columns.Find(Signal::kCurrent));
+    if (options.want_current && HasJointTorques(columns, options)) {
+      UseCurrents();
     }
     if (!options.need_torque) return;
     const auto found = options.reconstructed_torque.find(path);
@@ -86,6 +85,15 @@ struct LogReader::Impl {
     torque_source = torque.source;
     KnowScale(torque.scale_stddev, options);
     tau = row.Use(torque.columns);
+  }
+
+  // Nothing hangs on them: those in unknown units are as good as none.
+  void UseCurrents() {
+    if (!columns.HasAll(Signal::kCurrent)) return;
+    try {
+      current = row.Use(columns.Find(Signal::kCurrent));
+    } catch (const InputError&) {
+    }
   }
 
   // `usual`: that of this kind of torque.

@@ -86,7 +86,7 @@ TEST(Doors, CalibrateTellsWhatLiesBeforeATorqueSensor) {
   EXPECT_NEAR(drive["armature"], .1, .01);
   EXPECT_NEAR(drive["viscous"], .5, .03);
   EXPECT_NEAR(drive["coulomb"], .8, .05);
-  EXPECT_THAT(summary.report, HasSubstr("joint torque sensors"));
+  EXPECT_THAT(summary.report, HasSubstr("joint torques"));
   EXPECT_NEAR(ValueOf(summary, "hinge.viscous"), .3, .01);
 }
 

@@ -44,7 +44,7 @@ void ReadLog(const std::string& path) { ReadWholeLog(path, AllSignals()); }
 void ReadLogWithSensor(const std::string& path) {
   LogReaderOptions options = AllSignals();
   options.topics = {{"/ft", std::nullopt, true}};
-  options.want_wrench = true;
+  options.want_wrench = options.want_current = true;
   ReadWholeLog(path, options);
 }
 

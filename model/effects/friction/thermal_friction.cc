@@ -40,8 +40,8 @@ std::string WhyNoFriction(const EffectSite& site) {
 
 }  // namespace
 
-// tau = viscous v (1 - exp(-beta warmth))
-//       + coulomb tanh(v / w) (1 - exp(-coulomb_beta warmth)):
+// On the joint, viscous v (1 - exp(-beta warmth))
+//   + coulomb tanh(v / w) (1 - exp(-coulomb_beta warmth)):
 // friction that falls as the joint warms up (Bittencourt et al. 2010; Simoni et
 // al. 2017), as the viscosity of oil does in Reynolds' law (1886). Warmth
 // follows the power of what friction is left within time_constant, unless it
@@ -51,7 +51,7 @@ Effect ThermalFriction() {
   effect.name = "thermal_friction";
   effect.nature = Effect::Nature::kDay;
   effect.law =
-      "tau = viscous v (1 - exp(-beta warmth)) + coulomb sign(v) (1 - "
+      "tau = -viscous v (1 - exp(-beta warmth)) - coulomb sign(v) (1 - "
       "exp(-coulomb_beta warmth))";
   effect.shows = "minutes of motion from cold";
   const auto size = [](const EffectSite&) { return .005; };
@@ -83,8 +83,8 @@ Effect ThermalFriction() {
   effect.stand_ins = {JointTerm::kViscous, JointTerm::kCoulomb};
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {
     const JointThermal thermal = Thermal(site, p);
-    return EffectNumbers{{"viscous", site.at().viscous},
-                         {"coulomb", site.at().coulomb},
+    return EffectNumbers{{"cold_viscous", site.at().viscous},
+                         {"cold_coulomb", site.at().coulomb},
                          {"beta", p[0]},
                          {"coulomb_beta", p[1]},
                          {"width", site.scale->width[site.joint]},

@@ -160,7 +160,10 @@ TEST(DriveTrains, OneDirectionTellsNoDryFriction) {
   }
   AddNoise(&random, VectorXd::Constant(6, .01), &log.tau);
   const DriveTrain found = Estimate(drives.robot, log).joints[0];
-  EXPECT_NE(found.told[DriveTrain::kCoulomb], found.told[DriveTrain::kOffset]);
+  EXPECT_FALSE(found.told[DriveTrain::kCoulomb]);
+  EXPECT_FALSE(found.told[DriveTrain::kOffset]);
+  EXPECT_TRUE(found.told[DriveTrain::kTorqueConstant]);
+  EXPECT_TRUE(found.stddev.allFinite());
   EXPECT_NEAR(found.value[DriveTrain::kTorqueConstant], drives.truth(0, 0),
               .02 * drives.truth(0, 0));
 }

@@ -27,7 +27,7 @@ class Log:
     q            (N, n) rad or m
     qd, qdd      (N, n) rad/s and rad/s^2, m/s and m/s^2
     tau          (N, n) N m or N, on the joint side
-    current      (N, n) A, of the motors, instead of tau
+    current      (N, n) A, of the motors, instead of tau or beside that of sensors
     voltage      (N, n) V, of the motors, instead of both
     qref         (N, n) rad or m, what the controller was to follow
     temperature  (N, n) deg C

@@ -118,8 +118,8 @@ FRICTION = {
     "coupled_friction": _coupled,
     "presliding": lambda see, j, p, z: -p["coulomb"] * z,
     "thermal_friction": lambda see, j, p, z:
-        -p["viscous"] * see.velocity[j] * math.expm1(-p["beta"] * see.warmth[j])
-        - p["coulomb"] * _dry(see, j, p) * math.expm1(-p["coulomb_beta"] * see.warmth[j]),
+        -p["cold_viscous"] * see.velocity[j] * math.expm1(-p["beta"] * see.warmth[j])
+        - p["cold_coulomb"] * _dry(see, j, p) * math.expm1(-p["coulomb_beta"] * see.warmth[j]),
 }
 TORQUES = {
     "spring": lambda see, j, p, z: p["preload"] - p["stiffness"] * see.position[j],
