@@ -64,7 +64,7 @@ LinkFunctions::LinkFunctions(const Robot& robot,
 
 void LinkFunctions::Enter(const Trajectory& trajectory) {
   trajectory_ = &trajectory;
-  states_ = coulomb_.Follow(trajectory);
+  states_ = coulomb_.FollowTorque(trajectory);
 }
 
 bool LinkFunctions::Useless(int sample) const {

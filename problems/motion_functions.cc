@@ -12,8 +12,9 @@ std::vector<int> RowSizes(const MotionFunctions& functions, int more) {
 
 MotionRegressor::MotionRegressor(const ModelParameters& parameters)
     : parameters_(parameters),
+      columns_(parameters.MakeRegressor().columns()),
       regressor_(parameters),
-      coulomb_(parameters.MakeRegressor().columns().terms) {
+      coulomb_(columns_.terms) {
   for (int i = 0; i < parameters.num_joints(); ++i) {
     row_columns_.push_back(parameters.row_columns(i));
   }
@@ -21,7 +22,7 @@ MotionRegressor::MotionRegressor(const ModelParameters& parameters)
 
 void MotionRegressor::Enter(const Trajectory& trajectory) {
   trajectory_ = &trajectory;
-  states_ = coulomb_.Follow(trajectory);
+  states_ = coulomb_.FollowTorque(trajectory);
 }
 
 MotionColumns MotionRegressor::Columns(int first) const {
@@ -37,6 +38,19 @@ void MotionRegressor::Momentum(int first, int count, double* const* P,
 void MotionRegressor::Differential(int first, int count, double* const* U,
                                    long stride) const {
   regressor_.Differential(Columns(first), count, U, stride);
+}
+
+Eigen::MatrixXd MotionRegressor::CoulombTorque(const Eigen::VectorXd& x) const {
+  Eigen::MatrixXd torque =
+      Eigen::MatrixXd::Zero(states_.rows(), parameters_.num_joints());
+  Eigen::Index state = 0;
+  for (size_t k = 0; k < columns_.terms.size(); ++k) {
+    const JointTermColumn& column = columns_.terms[k];
+    if (column.term != JointTerm::kCoulomb) continue;
+    torque.col(column.joint) +=
+        x[columns_.term_index[k]] * states_.col(state++);
+  }
+  return torque;
 }
 
 bool MotionRegressor::Useless(int sample) const {

@@ -52,11 +52,15 @@ class MotionRegressor : public MotionFunctions {
   void Differential(int first, int count, double* const* U,
                     long stride) const override;
   bool Useless(int sample) const override;
+  // Torque of Coulomb friction alone, N m or N, of parameters x, along the
+  // trajectory: samples x joints.
+  Eigen::MatrixXd CoulombTorque(const Eigen::VectorXd& x) const;
 
  private:
   MotionColumns Columns(int first) const;
 
   ModelParameters parameters_;
+  RegressorColumns columns_;
   std::vector<std::vector<int>> row_columns_;
   BatchRegressor regressor_;
   CoulombStates coulomb_;

@@ -196,8 +196,8 @@ std::vector<SampleNoise> EstimateSampleNoise(const OutlierLists& outliers,
                                              SamplePass* pass) {
   Collector collector(pass->num_joints(), pass->num_logs(), outliers);
   pass->Run("noise",
-            [&](int log, const Trajectory& t, const MatrixXd& residuals) {
-              collector.Add(log, t, residuals);
+            [&](int log, const Trajectory& t, const SampleResiduals& r) {
+              collector.Add(log, t, r.residual);
             });
   return collector.Noise();
 }

@@ -1,6 +1,6 @@
 #include "calib/logs/sample_pass.h"
 
-#include "calib/logs/sample_residuals.h"
+#include <algorithm>
 
 namespace armcal {
 
@@ -32,6 +32,16 @@ SamplePass::SamplePass(const ModelParameters& parameters,
       logs_(logs),
       stretches_(logs.logs().memory()) {}
 
+// A signal that is low-passed at f rises from 10 to 90 % of a step in about
+// 0.35 / f (of one pole: ln 9 / (2 pi f)), and half of that is on either side
+// of the step. What friction changes sign with is low-passed at the friction
+// band's frequencies.
+double SamplePass::turn_reach() const {
+  constexpr double kRise = .35;
+  const auto& band = logs_.friction();
+  return band ? kRise / 2 / std::min(band->position_hz, band->velocity_hz) : 0;
+}
+
 void SamplePass::Run(const std::string& stage, const Visit& visit) {
   if (stretches_.whole()) {
     for (const Stretch& s : stretches_.items()) {
@@ -44,10 +54,12 @@ void SamplePass::Run(const std::string& stage, const Visit& visit) {
   std::vector<MotionRegressor> regressors(logs_.size(),
                                           MotionRegressor(parameters_));
   logs_.ForEachAtFullRate(stage, progress_, [&](int log, const Trajectory& t) {
-    Stretch stretch{log, SeenOf(t), SampleResiduals(t, x_, &regressors[log])};
+    Stretch stretch{log, SeenOf(t), EvaluateSamples(t, x_, &regressors[log])};
     const Stretch* const kept =
         stretches_.Add(&stretch, sizeof(Stretch) + BytesOf(stretch.trajectory) +
-                                     stretch.residuals.size() * sizeof(double));
+                                     (stretch.residuals.residual.size() +
+                                      stretch.residuals.coulomb.size()) *
+                                         sizeof(double));
     visit(log, kept->trajectory, kept->residuals);
   });
   stretches_.End();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "calib/logs/prepared_logs.h"
+#include "calib/logs/sample_residuals.h"
 #include "model/dynamics/model_parameters.h"
 
 namespace armcal {
@@ -13,16 +14,19 @@ namespace armcal {
 // parameters. All is kept from pass to pass as far as the logs' memory goes.
 class SamplePass {
  public:
-  // `residuals` of each of t.samples (sample_residuals.h), samples in rows. Of
-  // the trajectory, samples, positions, standstill and core; nothing else.
+  // `residuals` of t.samples. Of the trajectory, samples, positions, standstill
+  // and core; nothing else.
   using Visit = std::function<void(int log, const Trajectory& t,
-                                   const Eigen::MatrixXd& residuals)>;
+                                   const SampleResiduals& residuals)>;
 
   SamplePass(const ModelParameters& parameters, const Eigen::VectorXd& x,
              const Progress& progress, const PreparedLogs& logs);
 
   int num_joints() const { return parameters_.num_joints(); }
   int num_logs() const { return logs_.size(); }
+  // How far from the time at which a joint is seen to turn round it may have
+  // done so, s.
+  double turn_reach() const;
 
   // At full rate, outliers of the logs not replaced.
   void Run(const std::string& stage, const Visit& visit);
@@ -35,7 +39,7 @@ class SamplePass {
   struct Stretch {
     int log;
     Trajectory trajectory;
-    Eigen::MatrixXd residuals;
+    SampleResiduals residuals;
   };
   KeptItems<Stretch> stretches_;
 };

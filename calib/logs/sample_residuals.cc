@@ -9,8 +9,8 @@ namespace armcal {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-MatrixXd SampleResiduals(const Trajectory& t, const VectorXd& x,
-                         MotionRegressor* regressor) {
+SampleResiduals EvaluateSamples(const Trajectory& t, const VectorXd& x,
+                                MotionRegressor* regressor) {
   regressor->Enter(t);
   const MatrixXd grid = PredictTorques(t, x, *regressor);
   MatrixXd residuals = t.samples.tau;
@@ -21,7 +21,7 @@ MatrixXd SampleResiduals(const Trajectory& t, const VectorXd& x,
     residuals.row(k) -=
         (1 - share) * grid.row(left) + share * grid.row(left + 1);
   }
-  return residuals;
+  return {residuals, regressor->CoulombTorque(x)};
 }
 
 }  // namespace armcal

@@ -7,10 +7,15 @@
 
 namespace armcal {
 
-// Recorded minus predicted torque at each of t.samples (samples in rows), the
-// prediction of parameters x taken between the points of the trajectory's grid.
-// Enters the trajectory.
-Eigen::MatrixXd SampleResiduals(const Trajectory& t, const Eigen::VectorXd& x,
+struct SampleResiduals {
+  Eigen::MatrixXd residual;  // samples x joints, recorded minus predicted
+  Eigen::MatrixXd coulomb;   // torque of Coulomb friction, grid x joints
+};
+
+// Residuals of torque at each of t.samples, the prediction of parameters x
+// taken between the points of the trajectory's grid, N m or N. Enters the
+// trajectory.
+SampleResiduals EvaluateSamples(const Trajectory& t, const Eigen::VectorXd& x,
                                 MotionRegressor* regressor);
 
 }  // namespace armcal

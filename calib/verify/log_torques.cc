@@ -54,7 +54,7 @@ class LogPredictor {
 
   // The chosen rows of a trajectory.
   LogPrediction Predict(const Trajectory& t, const std::vector<int>& rows) {
-    const MatrixXd& c = coulomb_->Follow(t);
+    const MatrixXd c = coulomb_->FollowTorque(t);
     regressor_->Enter(t);
     const MatrixXd own = PredictTorques(t, model_.x, *regressor_);
     LogPrediction predicted;

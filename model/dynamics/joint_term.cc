@@ -42,6 +42,76 @@ void FollowDisplacement(const Eigen::Ref<const Eigen::VectorXd>& q,
   }
 }
 
+// The friction of a trajectory has a motion of its own or that of the joints.
+const Eigen::MatrixXd& FrictionPositions(const Trajectory& t) {
+  return t.friction_q.size() > 0 ? t.friction_q : t.q;
+}
+const Eigen::MatrixXd& FrictionVelocities(const Trajectory& t) {
+  return t.friction_q.size() > 0 ? t.friction_qd : t.qd;
+}
+
+// int tanh(x) dx = ln cosh x + ln 2, without overflow.
+double TanhIntegral(double x) {
+  return std::abs(x) + std::log1p(std::exp(-2 * std::abs(x)));
+}
+
+// The mean of tanh(x / width) where x goes evenly from a to b:
+//   width / (b - a) (ln cosh(b / width) - ln cosh(a / width)).
+// `at` is tanh at the middle, to which that tends as b - a does to 0; the
+// second derivative of tanh is below 0.8, so that it is off by less than
+// 0.8 / 24 ((b - a) / width)^2.
+double MeanTanh(double a, double b, double width, double at) {
+  constexpr double kNear = 0.02;  // off by 1.3e-5
+  constexpr double kFar = 20;     // beyond it tanh is 1 to rounding
+  const bool passes =
+      a * b <= 0 || std::abs(a) < kFar * width || std::abs(b) < kFar * width;
+  if (!passes || std::abs(b - a) < kNear * width) return at;
+  return width / (b - a) * (TanhIntegral(b / width) - TanhIntegral(a / width));
+}
+
+// Velocities in the middle of the steps before and after a row (at the ends:
+// the row's own), which goes evenly between rows.
+void AverageVelocityLaw(const Eigen::Ref<const Eigen::VectorXd>& qd,
+                        double width, Eigen::Ref<Eigen::VectorXd> c) {
+  const Eigen::Index last = qd.size() - 1;
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    const double a = k > 0 ? (qd[k - 1] + qd[k]) / 2 : qd[k];
+    const double b = k < last ? (qd[k] + qd[k + 1]) / 2 : qd[k];
+    c[k] = MeanTanh(a, b, width, c[k]);
+  }
+}
+
+// The mean of clip(c + s move, -1, 1) over s from 0 to 1: a Prandtl element
+// that moves evenly, until it yields.
+double MeanClipped(double c, double move) {
+  if (std::abs(c + move) <= 1) return c + move / 2;
+  const double bound = move > 0 ? 1 : -1;
+  const double until = (bound - c) / move;
+  return until * (c + bound) / 2 + (1 - until) * bound;
+}
+
+// Of the states of a displacement law: the second half of the step before a row
+// and the first half of the one after it (at the ends: the one that is there).
+void AverageDisplacementLaw(const Eigen::Ref<const Eigen::VectorXd>& q,
+                            double width, Eigen::Ref<Eigen::VectorXd> c) {
+  const Eigen::Index last = q.size() - 1;
+  double before = c[0];  // of the row before
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    const double own = c[k];
+    double mean = own;
+    if (k > 0) {
+      const double half = (q[k] - q[k - 1]) / (2 * width);
+      mean = MeanClipped(std::clamp(before + half, -1., 1.), half);
+    }
+    if (k < last) {
+      const double after = MeanClipped(own, (q[k + 1] - q[k]) / (2 * width));
+      mean = k > 0 ? (mean + after) / 2 : after;
+    }
+    c[k] = mean;
+    before = own;
+  }
+}
+
 }  // namespace
 
 const char* JointTermName(JointTerm term) {
@@ -143,9 +213,8 @@ int CoulombStates::NumKnown(const Trajectory& trajectory) const {
 // of a displacement law, which has a memory. It goes on from the trajectory
 // before where both overlap; else it begins at 0.
 const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
-  const bool apart = trajectory.friction_q.size() > 0;
-  const Eigen::MatrixXd& q = apart ? trajectory.friction_q : trajectory.q;
-  const Eigen::MatrixXd& qd = apart ? trajectory.friction_qd : trajectory.qd;
+  const Eigen::MatrixXd& q = FrictionPositions(trajectory);
+  const Eigen::MatrixXd& qd = FrictionVelocities(trajectory);
   Eigen::MatrixXd states(trajectory.size(), size());
   const int known = NumKnown(trajectory);
   const Eigen::Index shift = trajectory.first_index - first_index_;
@@ -174,6 +243,24 @@ const Eigen::MatrixXd& CoulombStates::Follow(const Trajectory& trajectory) {
   segment_ = trajectory.segment;
   first_index_ = trajectory.first_index;
   return states_;
+}
+
+// The motion is taken to go evenly between rows.
+Eigen::MatrixXd CoulombStates::FollowTorque(const Trajectory& trajectory) {
+  Eigen::MatrixXd means = Follow(trajectory);
+  if (!trajectory.thinned || trajectory.size() < 2) return means;
+  for (int c = 0; c < size(); ++c) {
+    const int j = columns_[c].joint;
+    const CoulombTransition& transition = columns_[c].transition;
+    if (transition.law == CoulombTransition::Law::kVelocity) {
+      AverageVelocityLaw(FrictionVelocities(trajectory).col(j),
+                         transition.width, means.col(c));
+    } else {
+      AverageDisplacementLaw(FrictionPositions(trajectory).col(j),
+                             transition.width, means.col(c));
+    }
+  }
+  return means;
 }
 
 }  // namespace armcal

@@ -69,6 +69,12 @@ class CoulombStates {
   int size() const { return static_cast<int>(columns_.size()); }
   // samples x size().
   const Eigen::MatrixXd& Follow(const Trajectory& trajectory);
+  // The same as the trajectory's torque has them. Where that was thinned
+  // (Trajectory), a row's is the mean over the step about it, from half a step
+  // before to half a step after: friction that changes sign between two rows is
+  // not there to be seen in either, and to take the sign at a row for that of
+  // its step would be wrong by up to half of it.
+  Eigen::MatrixXd FollowTorque(const Trajectory& trajectory);
 
  private:
   int NumKnown(const Trajectory& trajectory) const;

@@ -85,6 +85,22 @@ Eigen::VectorXd SlidingMedians(const Eigen::VectorXd& x, int reach) {
   return medians;
 }
 
+// The nearest unmarked samples on either side of k, where they are and their
+// values: the nearer one's at an end, x[k] where all are marked.
+struct Piers {
+  Piers(const Eigen::VectorXd& x, Eigen::Index k,
+        const Eigen::Array<bool, Eigen::Dynamic, 1>& marked)
+      : left(k - 1), right(k + 1) {
+    while (left >= 0 && marked[left]) --left;
+    while (right < x.size() && marked[right]) ++right;
+    const bool has_left = left >= 0, has_right = right < x.size();
+    before = has_left ? x[left] : x[has_right ? right : k];
+    after = has_right ? x[right] : before;
+  }
+  Eigen::Index left, right;
+  double before, after;
+};
+
 }  // namespace
 
 Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> RemoveSpikes(
@@ -138,6 +154,7 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
     size = (x - result.level).cwiseAbs();
     result.deviation = Percentile(size, 80) / kNormal80;
     const double limit = std::max(least, kThreshold * result.deviation);
+    result.limit = limit;
     if (limit <= 0) break;
     const Eigen::Array<bool, Eigen::Dynamic, 1> last = result.marked;
     result.marked = size.array() > limit;
@@ -148,15 +165,18 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
 
 double Bridge(const Eigen::VectorXd& x, Eigen::Index k,
               const Eigen::Array<bool, Eigen::Dynamic, 1>& marked) {
-  Eigen::Index left = k - 1, right = k + 1;
-  while (left >= 0 && marked[left]) --left;
-  while (right < x.size() && marked[right]) ++right;
-  const bool has_right = right < x.size();
-  if (left < 0) return has_right ? x[right] : x[k];
-  if (!has_right) return x[left];
-  const double share =
-      static_cast<double>(k - left) / static_cast<double>(right - left);
-  return (1 - share) * x[left] + share * x[right];
+  const Piers piers(x, k, marked);
+  const double share = static_cast<double>(k - piers.left) /
+                       static_cast<double>(piers.right - piers.left);
+  return (1 - share) * piers.before + share * piers.after;
+}
+
+double NearerEnd(const Eigen::VectorXd& x, Eigen::Index k,
+                 const Eigen::Array<bool, Eigen::Dynamic, 1>& marked) {
+  const Piers piers(x, k, marked);
+  const bool is_before =
+      std::abs(x[k] - piers.before) < std::abs(x[k] - piers.after);
+  return is_before ? piers.before : piers.after;
 }
 
 }  // namespace armcal

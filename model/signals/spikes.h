@@ -19,6 +19,7 @@ struct Outlying {
   Eigen::Array<bool, Eigen::Dynamic, 1> marked;
   Eigen::VectorXd level;  // the median of the unmarked samples around each
   double deviation = 0;   // standard, of samples about their level
+  double limit = 0;       // the difference from the level that marks a sample
 };
 
 // Marks samples that differ by more than 8 deviations, and by more than
@@ -31,5 +32,9 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least);
 // either side; the nearer one at an end, x[k] where all are marked.
 double Bridge(const Eigen::VectorXd& x, Eigen::Index k,
               const Eigen::Array<bool, Eigen::Dynamic, 1>& marked);
+// The value of that of these two which is nearer to x[k]: if k is before or
+// after a step of x between them, this is what x[k] is about.
+double NearerEnd(const Eigen::VectorXd& x, Eigen::Index k,
+                 const Eigen::Array<bool, Eigen::Dynamic, 1>& marked);
 
 }  // namespace armcal

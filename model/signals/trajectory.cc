@@ -259,6 +259,7 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
       *x = Thin(*x, thin);
     }
     t.dt *= static_cast<double>(thin);
+    t.thinned = true;
   }
   t.segment = segment;
   t.first_index = begin / thin;

@@ -45,8 +45,11 @@ struct Trajectory {
   // replaced; empty where spikes are not looked for.
   Eigen::Array<long, 1, Eigen::Dynamic> spikes;
   TorqueSamples samples;  // of all rows, where every sample is asked for
-  int segment = 0;        // which stretch between gaps, from 0
-  long first_index = 0;   // grid index of row 0 in its segment
+  // Whether the torque of a row is one of a time about it, as it was low-passed
+  // and thinned, and not of an instant.
+  bool thinned = false;
+  int segment = 0;       // which stretch between gaps, from 0
+  long first_index = 0;  // grid index of row 0 in its segment
   int core_begin = 0;
   int core_end = 0;
 

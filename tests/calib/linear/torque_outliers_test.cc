@@ -27,8 +27,35 @@ TEST_P(TorqueOutliers, MoveLittleAndAreListed) {
 INSTANTIATE_TEST_SUITE_P(Arms, TorqueOutliers,
                          testing::Values("UR5 6R", "PUMA560 6R"));
 
+// Friction that is a sign, faster than what motion is smoothed at, jumps where
+// its joint turns round: in the log, and some samples sooner or later in the
+// prediction. None of it is an error. The log is fast enough to be thinned, by
+// seven; friction is found to three thousandths where its joint turns round
+// within a step of the thinned one.
+TEST(OutlierRows, SharpFrictionHasNone) {
+  std::mt19937_64 random(5);
+  const Robot& robot = Record("UR5 6R", 5, 1).robot;
+  Log log = RecordMotion(RandomMultisine(&random, 6, 1.2), 40, .001);
+  AddTorque(robot, &log);
+  constexpr double kCoulomb = 3, kSharp = 1e-6;
+  for (int j = 0; j < 6; ++j) {
+    AddCoulomb(j, kCoulomb, {CoulombTransition::Law::kVelocity, kSharp}, &log);
+  }
+  AddNoise(&random, kNoiseShare * ColumnRms(log.tau), &log.tau);
+  LinearCalibrationOptions options;
+  const Calibrated c = CalibrateAndList(robot, log, options);
+  EXPECT_TRUE(c.listed.empty()) << c.listed.size();
+  for (int k = 0; k < c.result.parameters.size(); ++k) {
+    const ModelParameter& p = c.result.parameters.parameters()[k];
+    if (!p.is_joint_term || p.term != JointTerm::kCoulomb) continue;
+    EXPECT_NEAR(c.result.x[k], kCoulomb, .003 * kCoulomb) << p.name;
+  }
+}
+
 // The share of planted samples that are listed, and of listed ones that were
-// planted; of a log whose rows stand in the file as they are.
+// planted; of a log whose rows stand in the file as they are. Up to 2 % of the
+// planted ones are not: where friction turns over, by ten times their size
+// within three rows, they look like one side of its step.
 void ExpectListed(const Recording& run, const Log& log, const Samples& planted,
                   double bandwidth_hz) {
   LinearCalibrationOptions options;
@@ -39,7 +66,7 @@ void ExpectListed(const Recording& run, const Log& log, const Samples& planted,
   for (const auto& sample : c.listed) {
     right += static_cast<double>(planted.count(sample));
   }
-  EXPECT_GE(right, .99 * static_cast<double>(planted.size()));
+  EXPECT_GE(right, .98 * static_cast<double>(planted.size()));
   EXPECT_GE(right, .99 * static_cast<double>(c.listed.size()));
 }
 

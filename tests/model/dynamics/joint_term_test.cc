@@ -165,4 +165,73 @@ TEST(CoulombStates, FollowFrictionsOwnMotion) {
   EXPECT_NEAR(states(1, 1), -1, 1e-12);  // -4 over a width of 4
 }
 
+// Two joints that often turn round: a step is 40 of the sharpest widths.
+Trajectory TurningRound(double dt) {
+  Trajectory t;
+  t.dt = dt;
+  const auto size = static_cast<Eigen::Index>(std::lround(6 / dt)) + 1;
+  const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(size, 0, 6);
+  t.q.resize(size, 2);
+  t.qd.resize(size, 2);
+  t.q << .05 * (3 * time).sin(), .02 * (7 * time).cos();
+  t.qd << .15 * (3 * time).cos(), -.14 * (7 * time).sin();
+  t.core_end = t.size();
+  t.thinned = true;
+  return t;
+}
+
+// What a thinned torque has is the mean over the step about a row: those of
+// rows that are 1000 times as close, of both laws, by the trapezoidal rule.
+// What is left is the motion's bend between rows: of a position
+// h^2 max |qdd| / 8, which counts against a displacement's width, and of the
+// velocity at a turn less.
+TEST(CoulombStates, ThinnedTorqueHasTheMeanOfAStep) {
+  constexpr int kFiner = 1000;
+  const Trajectory t = TurningRound(.008), fine = TurningRound(.008 / kFiner);
+  std::vector<JointTermColumn> columns;
+  for (int j = 0; j < 2; ++j) {
+    for (const double width : {1e-7, 1e-3, .02, .3}) {
+      columns.push_back({j, JointTerm::kCoulomb, {Law::kVelocity, width}});
+    }
+    for (const double width : {1e-4, .01}) {
+      columns.push_back({j, JointTerm::kCoulomb, {Law::kDisplacement, width}});
+    }
+  }
+  const MatrixXd states = CoulombStates(columns).Follow(fine);
+  const MatrixXd means = CoulombStates(columns).FollowTorque(t);
+  const MatrixXd at_rows = CoulombStates(columns).Follow(t);
+  constexpr double kBend = .008 * .008 / 8;  // of 1 rad/s^2
+  Eigen::ArrayXd allowed(12);
+  for (int c = 0; c < 12; ++c) {
+    const CoulombTransition& law = columns[c].transition;
+    const double most = columns[c].joint == 0 ? .45 : .98;  // |qdd|, rad/s^2
+    allowed[c] =
+        law.law == Law::kVelocity ? .001 : 2 * most * kBend / law.width;
+  }
+  double coarse = 0;
+  for (int k = 1; k + 1 < t.size(); ++k) {
+    const auto step =
+        states.middleRows(kFiner * k - kFiner / 2, kFiner + 1).array();
+    const Eigen::ArrayXd mean =
+        (step.colwise().sum() - (step.row(0) + step.row(kFiner)) / 2) / kFiner;
+    const Eigen::ArrayXd off = means.row(k).transpose().array() - mean;
+    EXPECT_LT((off.abs() - allowed).maxCoeff(), 0) << k << '\n'
+                                                   << off.transpose();
+    coarse = std::max(
+        coarse, (at_rows.row(k).transpose().array() - mean).abs().maxCoeff());
+  }
+  EXPECT_GT(coarse, .5);  // the sign at a row for that of its step
+}
+
+TEST(CoulombStates, TorqueAsSampledHasTheStates) {
+  Trajectory t = TurningRound(.008);
+  t.thinned = false;
+  EXPECT_EQ(CoulombStates(Displacement(1e-3)).FollowTorque(t),
+            CoulombStates(Displacement(1e-3)).Follow(t));
+  t = Stretch({1});
+  t.thinned = true;
+  EXPECT_EQ(CoulombStates(Displacement(1e-3)).FollowTorque(t),
+            MatrixXd::Zero(1, 2));
+}
+
 }  // namespace armcal::joint_term_test

@@ -122,4 +122,27 @@ TEST(FindOutlying, LevelsAreMediansOfTheUnmarked) {
   }
 }
 
+// From one unmarked sample to the next there may be a line, or a step.
+TEST(Bridge, AndNearerEndAreOfTheUnmarked) {
+  Eigen::VectorXd x(8);
+  x << 1, 9, 2, -4, -3, 5, 6, 5.5;
+  Eigen::Array<bool, Eigen::Dynamic, 1> marked(8);
+  marked << false, true, false, true, true, false, true, false;
+  const auto bridge = [&](int k) { return Bridge(x, k, marked); };
+  const auto step = [&](int k) { return NearerEnd(x, k, marked); };
+  EXPECT_EQ(bridge(1), 1.5);
+  EXPECT_EQ(step(1), 2);
+  EXPECT_EQ(bridge(4), 4);
+  EXPECT_EQ(step(4), 2);
+  EXPECT_EQ(bridge(6), 5.25);
+  EXPECT_EQ(step(6), 5.5);
+  x[4] = 4;
+  EXPECT_EQ(step(4), 5);
+  marked[0] = marked[7] = true;
+  for (const auto& nearest : {bridge(0), step(0)}) EXPECT_EQ(nearest, 2);
+  for (const auto& nearest : {bridge(7), step(7)}) EXPECT_EQ(nearest, 5);
+  marked.setConstant(true);
+  for (const auto& own : {bridge(3), step(3)}) EXPECT_EQ(own, -4);
+}
+
 }  // namespace armcal::spikes_test
