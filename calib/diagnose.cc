@@ -31,7 +31,8 @@ namespace {
 
 // A file is good to 5 %, and counts for little beside a reference.
 double TrustInFile(const DiagnoseOptions& options) {
-  return options.trust.value_or(options.reference.logs.empty() ? .05 : .5);
+  return options.trust.value_or(
+      options.reference.logs.empty() ? BaselineOptions().trust : .5);
 }
 
 std::vector<LogSource> AllLogs(const LogInput& logs,
@@ -99,8 +100,8 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
   fit.without = options.without;
   fit.progress = options.progress;
   fit.baseline.trust = TrustInFile(options);
-  fit.may_trust_less = !options.trust && options.reference.logs.empty() &&
-                       options.calibration.empty();
+  fit.may_trust_less = !options.trust && options.calibration.empty();
+  fit.trust_in_links = options.trust.value_or(fit.trust_in_links);
   fit.bandwidth_hz = options.bandwidth_hz;
   fit.forward = options.forward;
   fit.seed = options.seed;

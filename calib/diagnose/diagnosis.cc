@@ -42,7 +42,7 @@ class Diagnoser {
         ReadSegments(bandwidth_hz_, options_.progress, logs);
     if (must_move || segments.empty())
       CheckMotion(segments, bandwidth_hz_, logs);
-    KnowUsualTemperature(&segments);
+    SetUsualTemperature(&usual_temperature_, &segments);
     AdvanceTorque(delay_, &segments);
     return segments;
   }
@@ -50,13 +50,13 @@ class Diagnoser {
   void Tell(const std::string& step) const {
     if (options_.progress) options_.progress(step, -1);
   }
-  // Friction is the model's at the temperature of the first sample read.
-  void KnowUsualTemperature(std::vector<GapSegment>* segments);
   void FitBaseline(const MissingTerms& missing,
                    std::vector<GapSegment>* segments,
                    std::vector<GapSegment>* before);
-  void FreeWhatIsContradicted(MissingTerms missing,
+  void FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
                               std::vector<GapSegment>* segments);
+  void ForgetOtherFriction(MissingTerms* missing,
+                           std::vector<GapSegment>* segments);
   // `evaluated`: candidates whose torques are known.
   void Fit(const std::vector<GapSegment>& segments,
            const std::vector<GapSegment>& before,
@@ -68,7 +68,6 @@ class Diagnoser {
   JointGap JointFigures(int joint) const;
   void Draw();
   void Simulate(const LogSet& held_out, bool split);
-  void TellUnexplained();
   void Judge();
 
   const Robot& robot_;
@@ -83,17 +82,6 @@ class Diagnoser {
   GapDiagnosis result_;
 };
 
-void Diagnoser::KnowUsualTemperature(std::vector<GapSegment>* segments) {
-  for (GapSegment& segment : *segments) {
-    Motion& motion = segment.motion;
-    if (motion.temperature.size() == 0) continue;
-    if (usual_temperature_.size() == 0) {
-      usual_temperature_ = motion.temperature.row(0);
-    }
-    motion.usual_temperature = usual_temperature_;
-  }
-}
-
 // The model and its freedom; a reference moves it to what that shows.
 // Afterwards both kinds of segments have their torque as if it came without
 // delay.
@@ -102,6 +90,7 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
                             std::vector<GapSegment>* before) {
   BaselineOptions trust = options_.baseline;
   trust.trust = result_.trust;
+  trust.file = &robot_;
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
@@ -128,15 +117,19 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
 
 // Without a reference, which would tell: the effects are chosen again while
 // they contradict what was assumed of the file (freedom.h), kMost times at
-// most. The trust is raised once.
-void Diagnoser::FreeWhatIsContradicted(MissingTerms missing,
+// most. The trust is raised once, with terms that are as the logs have them.
+void Diagnoser::FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
                                        std::vector<GapSegment>* segments) {
   constexpr int kMost = 3;
   const double given = result_.trust;
   std::vector<GapSegment> none;
   for (int round = 0; round < kMost; ++round) {
-    bool again = HoldNegative(*fit_, &missing);
-    if (options_.may_trust_less && result_.trust == given) {
+    BaselineOptions options = options_.baseline;
+    options.trust = result_.trust;
+    const bool given_up = GiveUpContradicted(*fit_, file, options,
+                                             bandwidth_hz_, *segments, missing);
+    bool again = given_up || HoldNegative(*fit_, missing);
+    if (!given_up && options_.may_trust_less && result_.trust == given) {
       result_.trust *= LikeliestTrust(*fit_);
       again |= result_.trust > given;
     }
@@ -145,11 +138,35 @@ void Diagnoser::FreeWhatIsContradicted(MissingTerms missing,
     const MotionScale scale = fit_->scale();
     std::vector<GapCandidate> evaluated = fit_->TakeEvaluated();
     fit_.reset();  // it refers to the baseline
-    FitBaseline(missing, segments, &none);
+    FitBaseline(*missing, segments, &none);
     Fit(*segments, none,
         WithSameTorques(robot, baseline_->robot(), scale,
                         std::move(evaluated)));
   }
+}
+
+// A reference whose friction or armature is not that of the logs, on many
+// joints at once, is of other drives or other torque sensors. It tells of the
+// links then, and nothing else: its robot without these terms is what a file
+// is.
+void Diagnoser::ForgetOtherFriction(MissingTerms* missing,
+                                    std::vector<GapSegment>* segments) {
+  result_.not_of_reference = ContradictedTerms(*fit_);
+  if (result_.not_of_reference.empty()) return;
+  result_.has_reference = false;
+  const Robot links = baseline_->robot();
+  result_.trust = options_.trust_in_links;
+  BaselineOptions options = options_.baseline;
+  options.trust = result_.trust;
+  options.file = &robot_;
+  const std::vector<JointTerm> all = {JointTerm::kViscous, JointTerm::kCoulomb,
+                                      JointTerm::kArmature};
+  *missing = FitWithout(all, links, options, bandwidth_hz_, *segments);
+  std::vector<GapSegment> none;
+  fit_.reset();  // it refers to the baseline
+  FitBaseline(*missing, segments, &none);
+  Fit(*segments, none);
+  FreeWhatIsContradicted(links, missing, segments);
 }
 
 GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
@@ -161,17 +178,21 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   if (reference != nullptr) before = Read(*reference);
   Tell("fitting the baseline");
   result_.trust = options_.baseline.trust;
-  const MissingTerms missing =
+  MissingTerms missing =
       FitMissingTerms(robot_, options_.baseline, bandwidth_hz_,
                       before.empty() ? segments : before);
   FitBaseline(missing, &segments, &before);
-  result_.ladder = missing;
   result_.has_reference = reference != nullptr;
   result_.has_calibration = options_.baseline.posterior != nullptr;
   result_.torque_constants_stddev = training.torque_constants_stddev();
   Tell("choosing effects");
   Fit(segments, before);
-  if (before.empty()) FreeWhatIsContradicted(missing, &segments);
+  if (before.empty()) {
+    FreeWhatIsContradicted(robot_, &missing, &segments);
+  } else {
+    ForgetOtherFriction(&missing, &segments);
+  }
+  result_.ladder = missing;
   if (split) {
     held_out_.emplace(*fit_, options_.seed);
   } else {
@@ -185,7 +206,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   for (int j = 0; j < robot_.num_joints(); ++j) {
     result_.joints.push_back(JointFigures(j));
   }
-  TellUnexplained();
+  result_.unexplained = SumUnexplained(*fit_, result_.joints);
   GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
       result_.has_reference ? std::vector<MissingTerm>() : missing.terms);
@@ -334,22 +355,6 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
       options_.seed, counted);
 }
 
-// What no effect explains, in sample: its share of what a refit leaves beyond
-// the noise, and the joint that holds most of it.
-void Diagnoser::TellUnexplained() {
-  double left = 0, most = 0, refit = 0;
-  for (int j = 0; j < robot_.num_joints(); ++j) {
-    const double here = result_.joints[j].unexplained;
-    left += here;
-    refit += Excess(*fit_, j, false);
-    if (here <= most) continue;
-    most = here;
-    result_.unexplained.joint = result_.joints[j].name;
-    result_.unexplained.organised_by = result_.joints[j].organised.by;
-  }
-  result_.unexplained.share = left / std::max(1., std::max(left, refit));
-}
-
 void Diagnoser::Judge() {
   if (options_.wrong_readings) result_.data = options_.wrong_readings();
   for (DataFinding& computed : AuditTorque(robot_, fit_->rows())) {
@@ -358,6 +363,9 @@ void Diagnoser::Judge() {
   const bool testable = result_.data.empty();
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
+  }
+  if (!result_.not_of_reference.empty()) {
+    result_.data.push_back(OtherThanReference(result_.not_of_reference));
   }
   for (DataFinding& burst :
        TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_)) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "calib/diagnose/data/audit.h"
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/noise.h"
+#include "calib/diagnose/joint_gap.h"
 #include "calib/diagnose/judge/corrected_draws.h"
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/findings.h"
@@ -22,7 +22,6 @@
 #include "calib/diagnose/judge/shown.h"
 #include "calib/diagnose/judge/testability.h"
 #include "calib/diagnose/judge/verdict.h"
-#include "calib/diagnose/judge/where.h"
 #include "calib/diagnose/select/missing_terms.h"
 #include "calib/diagnose/select/selection.h"
 #include "calib/logs/log_set.h"
@@ -38,9 +37,12 @@ struct DiagnosisOptions {
   std::optional<double> bandwidth_hz;
   SelectionOptions selection;
   std::vector<std::string> without;  // effects that are not considered
-  // Whether the trust in the file's inertial parameters is a guess, which the
-  // logs may raise (LikeliestTrust).
+  // Whether the trust in the file's inertial parameters is a guess, which logs
+  // without a reference may raise (LikeliestTrust).
   bool may_trust_less = false;
+  // The trust in those that a reference shows where nothing else of it is
+  // believed (GapDiagnosis::not_of_reference).
+  double trust_in_links = BaselineOptions().trust;
   // What makes these logs those of another arm; nothing is told of it then.
   // Asked when all else is known; may be empty.
   std::function<std::vector<DataFinding>()> wrong_readings;
@@ -52,23 +54,6 @@ struct DiagnosisOptions {
   std::vector<CommandedLog> commanded;
   int samples = 0;  // robots to draw from what is known in the end
   Progress progress;
-};
-
-// What is left given the effects that were found.
-struct Unexplained {
-  std::string joint;
-  std::string organised_by;
-  double share = 0;  // of the refitted model's excess over the noise
-};
-
-struct JointGap {
-  std::string name;
-  std::string unit;
-  // rms of the held-out torque residual, N m or N; NaN where none was held out.
-  double nominal_rms = NAN, refit_rms = NAN, after_rms = NAN, floor_rms = 0;
-  double torque_rms = 0;   // of the recorded torque, N m or N
-  Organisation organised;  // of the refitted model's residual
-  double unexplained = 0;  // chi^2 beyond the noise's after the effects
 };
 
 struct GapDiagnosis {
@@ -85,7 +70,11 @@ struct GapDiagnosis {
   bool has_calibration = false;  // whether the robot is a calibrated one
   GapFigures torque;
   std::optional<ForwardGap> forward;
-  MissingTerms ladder;  // what the file gives no joint at all
+  // What the file gives no joint at all, or has wrong on many joints.
+  MissingTerms ladder;
+  // Joint terms that a reference has otherwise on many joints: has_reference is
+  // false then, as it tells of the links alone.
+  std::vector<const Effect*> not_of_reference;
   CorrectedRobot corrected;
   CorrectedDraws draws;  // of it; none where none were asked for
   std::vector<JointGap> joints;

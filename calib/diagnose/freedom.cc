@@ -1,10 +1,14 @@
 #include "calib/diagnose/freedom.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/evidence_noise.h"
+#include "calib/diagnose/select/form_error.h"
+#include "model/effects/effects.h"
 
 namespace armcal {
 namespace {
@@ -16,7 +20,128 @@ MissingTerm* Find(JointTerm term, MissingTerms* missing) {
   return nullptr;
 }
 
+// The catalogue's changes of one joint term, a candidate per joint.
+struct TermChange {
+  const Effect* effect;
+  std::vector<int> candidates;
+};
+
+// Those of friction and armature that were not chosen themselves.
+std::vector<TermChange> TermChanges(const GapFit& fit) {
+  std::vector<TermChange> changes;
+  for (const Effect& effect : Effects()) {
+    const bool is_of_robot = effect.nature != Effect::Nature::kRecording;
+    if (!effect.joint_term || !is_of_robot) continue;
+    TermChange change = {&effect, {}};
+    for (size_t i = 0; i < fit.candidates().size(); ++i) {
+      const GapCandidate& candidate = fit.candidates()[i];
+      if (candidate.effect != &effect) continue;
+      const auto& chosen = fit.selection().chosen;
+      if (std::none_of(chosen.begin(), chosen.end(), [&](int c) {
+            return SamePlace(fit.candidates()[c], candidate);
+          })) {
+        change.candidates.push_back(static_cast<int>(i));
+      }
+    }
+    if (!change.candidates.empty()) changes.push_back(std::move(change));
+  }
+  return changes;
+}
+
+GapScreen::Fit SolveWith(const GapFit& fit,
+                         const std::vector<TermChange>& changes) {
+  std::vector<int> all = fit.selection().chosen;
+  for (const TermChange& change : changes) {
+    all.insert(all.end(), change.candidates.begin(), change.candidates.end());
+  }
+  return fit.screen().Solve(ColumnsOf(fit.candidates(), all));
+}
+
+// Joints of which more is explained by `more` beyond `fewer` than is left.
+int JointsExplained(const GapScreen& screen, const GapScreen::Fit& fewer,
+                    const GapScreen::Fit& more) {
+  const JointRows before = screen.Residuals(fewer);
+  const JointRows after = screen.Residuals(more);
+  int joints = 0;
+  for (size_t j = 0; j < before.size(); ++j) {
+    joints += after[j].squaredNorm() <
+              (1 - Limits().explains) * before[j].squaredNorm();
+  }
+  return joints;
+}
+
+// The change that is needed least beside the others, by its delta_chi2 less the
+// least that is asked of an effect on as many joints: the threshold and ln N
+// for each. Nothing where all are needed.
+std::optional<size_t> LeastNeeded(const GapFit& fit,
+                                  const std::vector<TermChange>& changes) {
+  const double log_rows =
+      std::log(std::max(1., static_cast<double>(fit.rows().num_rows())));
+  const double all = SolveWith(fit, changes).delta_chi2;
+  std::optional<size_t> least;
+  double margin = 0;
+  for (size_t k = 0; k < changes.size(); ++k) {
+    std::vector<TermChange> others = changes;
+    others.erase(others.begin() + static_cast<long>(k));
+    const double own =
+        all - SolveWith(fit, others).delta_chi2 -
+        fit.selection_options().threshold -
+        static_cast<double>(changes[k].candidates.size()) * log_rows;
+    if (own >= margin) continue;
+    margin = own;
+    least = k;
+  }
+  return least;
+}
+
 }  // namespace
+
+std::vector<const Effect*> ContradictedTerms(const GapFit& fit) {
+  if (!fit.rows().has_evidence()) return {};
+  std::vector<TermChange> changes = TermChanges(fit);
+  while (const auto least = LeastNeeded(fit, changes)) {
+    changes.erase(changes.begin() + static_cast<long>(*least));
+  }
+  const int joints = fit.rows().num_joints();
+  if (changes.empty() ||
+      JointsExplained(fit.screen(), SolveWith(fit, {}),
+                      SolveWith(fit, changes)) <
+          std::min<double>(Limits().several_joints, joints)) {
+    return {};
+  }
+  std::vector<const Effect*> terms;
+  for (const TermChange& change : changes) terms.push_back(change.effect);
+  return terms;
+}
+
+MissingTerms FitWithout(const std::vector<JointTerm>& not_believed,
+                        const Robot& file, const BaselineOptions& options,
+                        double bandwidth_hz,
+                        const std::vector<GapSegment>& segments) {
+  Robot without = file;
+  for (Link& link : without.links) {
+    for (const JointTerm term : not_believed) *TermOf(term, &link.joint) = 0;
+  }
+  return FitMissingTerms(without, options, bandwidth_hz, segments);
+}
+
+bool GiveUpContradicted(const GapFit& fit, const Robot& file,
+                        const BaselineOptions& options, double bandwidth_hz,
+                        const std::vector<GapSegment>& segments,
+                        MissingTerms* missing) {
+  if (options.posterior != nullptr) return false;
+  std::vector<JointTerm> not_believed;
+  for (const Effect* effect : ContradictedTerms(fit)) {
+    const JointTerm term = *effect->joint_term;
+    if (Find(term, missing) == nullptr) not_believed.push_back(term);
+  }
+  if (not_believed.empty()) return false;
+  for (const MissingTerm& term : missing->terms) {
+    not_believed.push_back(term.joint_term);
+  }
+  *missing = FitWithout(not_believed, file, options, bandwidth_hz, segments);
+  return true;
+}
 
 // A joint's term keeps 1e-6 of its usual size, as where logs ask for none
 // (FitMissingTerms), and no column.

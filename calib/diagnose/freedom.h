@@ -5,8 +5,32 @@
 
 namespace armcal {
 
-// How far a robot file's numbers may be off, once effects have been chosen: two
-// assumptions that these contradict, and with which they are chosen anew.
+// How far a robot file's or a reference's numbers may be off, once effects have
+// been chosen: assumptions that these contradict, and with which they are
+// chosen anew.
+
+// Friction and armature that the model has wrong on many joints at once: robot
+// files have placeholders of them, and a reference may be of other torque
+// sensors, behind the gears. The terms whose changes on all joints together
+// explain, on three joints or all of smaller arms, more of what the chosen
+// effects leave than they leave themselves, each of them asked for as an effect
+// is on as many joints. A single effect that explains the same was chosen
+// before.
+std::vector<const Effect*> ContradictedTerms(const GapFit& fit);
+
+// The terms that logs ask for where `file` gives none of them, of those it has
+// none of and of `not_believed` (FitMissingTerms).
+MissingTerms FitWithout(const std::vector<JointTerm>& not_believed,
+                        const Robot& file, const BaselineOptions& options,
+                        double bandwidth_hz,
+                        const std::vector<GapSegment>& segments);
+
+// Without a reference, terms that are contradicted are taken as ones that
+// `file` does not give, and *missing is fitted anew. Whether there were any.
+bool GiveUpContradicted(const GapFit& fit, const Robot& file,
+                        const BaselineOptions& options, double bandwidth_hz,
+                        const std::vector<GapSegment>& segments,
+                        MissingTerms* missing);
 
 // Of the joint terms that the file gives no joint, those that come out below 0
 // by more than a standard deviation beside the chosen effects are held at 0:

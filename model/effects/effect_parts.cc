@@ -5,6 +5,7 @@
 
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/motor_map.h"
+#include "model/robot/kinematics.h"
 
 namespace armcal {
 inline namespace effects {
@@ -133,6 +134,20 @@ std::string WhyNotRecorded(const EffectSite& site) {
   const Eigen::VectorXd& tops = site.scale->top_torque;
   const bool is_zero = tops.size() > 0 && tops[site.joint] == 0;
   return is_zero ? "the joint's torque is recorded as zero throughout" : "";
+}
+
+bool MovesTool(const Robot& robot) {
+  constexpr double kStep = .7;      // rad or m
+  constexpr double kOnAxis = 1e-9;  // m
+  const int n = robot.num_joints();
+  const Eigen::VectorXd bent = Eigen::VectorXd::Constant(n, kStep);
+  const Eigen::Vector3d at = ToolPose(robot, bent).translation();
+  for (int j = 0; j < n; ++j) {
+    const Eigen::VectorXd q = bent + kStep * Eigen::VectorXd::Unit(n, j);
+    const Eigen::Vector3d moved = ToolPose(robot, q).translation();
+    if ((moved - at).norm() > kOnAxis) return true;
+  }
+  return false;
 }
 
 std::string WhyNotCarried(const EffectSite& site) {

@@ -54,6 +54,19 @@ struct TorqueOf {
   }
 };
 
+// Of a parameter that these joints do not show (a moment along the only axis
+// that turns its link) rounding is left, which a fit would divide by: there is
+// none.
+void ForgetRounding(const MotionScale& scale, JointRows* torque) {
+  constexpr double kRounding = 1e-9;  // of the joint's torque
+  for (size_t j = 0; j < torque->size(); ++j) {
+    VectorXd& own = (*torque)[j];
+    if (own.size() == 0) continue;
+    const double usual = scale.torque[static_cast<Eigen::Index>(j)];
+    if (own.cwiseAbs().maxCoeff() <= kRounding * usual) own.resize(0);
+  }
+}
+
 // Torques of several candidates at once, segment by segment.
 // RecordedTorque::Changes simulates what differs from the same recorded motion
 // for all of them in one pass; positions and their kinematics are common.
@@ -73,6 +86,9 @@ void Evaluate(const std::vector<TorqueOf>& torques, const GapBaseline& baseline,
     }
     AddThinned(rows, static_cast<int>(s), (*recorded)[s].Changes(changed),
                thin);
+  }
+  for (const TorqueOf& one : torques) {
+    ForgetRounding(scale, &one.candidate->torque[one.k]);
   }
 }
 

@@ -116,4 +116,23 @@ DataFinding TooShortToHoldOut(const GapRows& rows) {
               ", or a higher " + OptionName("bandwidth")};
 }
 
+DataFinding OtherThanReference(const std::vector<const Effect*>& terms) {
+  std::string text;
+  for (size_t k = 0; k < terms.size(); ++k) {
+    text += (k == 0                 ? ""
+             : k + 1 < terms.size() ? ", "
+                                    : " and ") +
+            terms[k]->name;
+  }
+  std::replace(text.begin(), text.end(), '_', ' ');
+  const bool one = terms.size() == 1;
+  return {
+      "the joints' " + text + (one ? " is" : " are") + " not the reference's",
+      "on many joints at once by more than days make it, as of torques "
+      "measured elsewhere (before the gears or behind them) or of other "
+      "drives",
+      "what follows takes the links from the reference, and nothing else",
+      true};
+}
+
 }  // namespace armcal

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/rows.h"
+#include "model/effects/effect.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -26,5 +27,9 @@ std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows);
 // Of logs that have no rows in any fold (LogPart): how long a stretch of log
 // would have some.
 DataFinding TooShortToHoldOut(const GapRows& rows);
+
+// Of joint terms that a reference has otherwise, on many joints: it is believed
+// on the links alone.
+DataFinding OtherThanReference(const std::vector<const Effect*>& terms);
 
 }  // namespace armcal

@@ -102,7 +102,7 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
   CHECK_EQ(usual_torque.size(), n);
   for (int j = 0; j < n; ++j) {
     transitions_.push_back(TransitionOf(robot, j, options));
-    AddLink(j, options.trust);
+    AddLink(j, options);
     AddTerms(j, options, usual_torque[j]);
     AddReversal(j, options.reversal_s);
   }
@@ -179,14 +179,15 @@ int GapBaseline::num_model_columns() const {
 // of its size for the inertias, with size^2 = tr(I) / (2 m) the mean squared
 // distance of the mass from the link's origin. A parameter that is 0 in the
 // file is thus as uncertain as one that is not.
-void GapBaseline::AddLink(int link, double trust) {
-  const InertialParameters& inertial = robot_.links[link].inertial;
+void GapBaseline::AddLink(int link, const BaselineOptions& options) {
+  const Robot& file = options.file != nullptr ? *options.file : robot_;
+  const InertialParameters& inertial = file.links[link].inertial;
   if (inertial.mass <= 0) return;
   const double size = std::sqrt(inertial.inertia.trace() / 2 / inertial.mass);
   for (int k = 0; k < 10; ++k) {
     const double lever = k == 0 ? 1 : k < 4 ? size : size * size;
     columns_.push_back({BaselineColumn::Kind::kInertial, link, k,
-                        trust * inertial.mass * lever});
+                        options.trust * inertial.mass * lever});
   }
 }
 

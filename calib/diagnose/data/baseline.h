@@ -26,6 +26,9 @@ namespace armcal {
 // file's inertial parameters, armature and friction.
 struct BaselineOptions {
   double trust = 0.05;
+  // Whose masses and sizes the trust is relative to, where the robot's are
+  // fitted ones, which need not be possible; null: its own.
+  const Robot* file = nullptr;
   // Joint terms that the file gives no joint, and that the robot has from a fit
   // to a log: n standard deviations each, SI units of the term. The file does
   // not say anything about them, so that these are as wide as a term can be.
@@ -84,7 +87,7 @@ class GapBaseline {
   double DelayAt(const Eigen::VectorXd& x) const;
 
  private:
-  void AddLink(int link, double trust);
+  void AddLink(int link, const BaselineOptions& options);
   double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
   void AddTerms(int joint, const BaselineOptions& options, double usual_torque);
   void AddReversal(int joint, double timing);

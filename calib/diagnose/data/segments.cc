@@ -87,7 +87,10 @@ void AddErrors(const ReconstructedTorque& reconstructed, double bandwidth_hz,
   motion.torque_by_rate = smooth(reconstructed.by_rate);
 }
 
-// Joint by joint, on positions that are smooth already.
+// Joint by joint, on positions that are smooth already. Of a joint whose torque
+// is 0 throughout, as it has no motor or none that is recorded, nothing is
+// asked either, as of one that rests: its equation would be fitted best by
+// links that weigh nothing.
 void FindStillJoints(const MatrixXd& velocity, GapSegment* segment) {
   const Motion& motion = segment->motion;
   segment->still.resize(motion.size(), motion.num_joints());
@@ -98,6 +101,10 @@ void FindStillJoints(const MatrixXd& velocity, GapSegment* segment) {
   const double speed =
       segment->reconstructed_torque ? Limits().creep_speed : kStandstillSpeed;
   for (int j = 0; j < motion.num_joints(); ++j) {
+    if (segment->tau.col(j).isZero(0)) {
+      segment->still.col(j) = true;
+      continue;
+    }
     segment->still.col(j) =
         FindStandstill(velocity.col(j), motion.dt, reach, speed)
             .matrix()
@@ -194,6 +201,15 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
     DecimateSegment(MotionBandwidth(bandwidth_hz), &segment);
   }
   return segments;
+}
+
+void SetUsualTemperature(VectorXd* usual, std::vector<GapSegment>* segments) {
+  for (GapSegment& segment : *segments) {
+    Motion& motion = segment.motion;
+    if (motion.temperature.size() == 0) continue;
+    if (usual->size() == 0) *usual = motion.temperature.row(0);
+    motion.usual_temperature = *usual;
+  }
 }
 
 double MotionBandwidth(double bandwidth_hz) {

@@ -27,4 +27,9 @@ RecordedPositions AuditPositions(const Progress& progress, const LogSet& logs);
 // Of the motion of segments, Hz.
 double MotionBandwidth(double bandwidth_hz);
 
+// Friction is the model's at the temperature of the first sample that was read,
+// which *usual is, or becomes where it is empty.
+void SetUsualTemperature(Eigen::VectorXd* usual,
+                         std::vector<GapSegment>* segments);
+
 }  // namespace armcal

@@ -44,7 +44,10 @@ bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
                         const GapFigures& held_out) {
   return held_out.after < held_out.refit &&
          std::any_of(effects.begin(), effects.end(), [](const auto& found) {
-           return IsSeenAgain(found) && IsBeyondScatter(found);
+           // What shrinks for certain is there, though parts of the log may
+           // give it other names.
+           const bool shrinks = found.evidence.gain.ci95[0] > 0;
+           return (IsSeenAgain(found) || shrinks) && IsBeyondScatter(found);
          });
 }
 

@@ -96,6 +96,11 @@ Effect Payload() {
     robot->robot.links.back().inertial += payload.ReexpressIn(X_LP);
   };
   effect.estimates = PayloadEstimates;
+  effect.unfit = [](const EffectSite& site) -> std::string {
+    if (site.robot->num_joints() == 1 || MovesTool(*site.robot)) return "";
+    return "no joint moves the tool's frame: a mass on the last link tells its "
+           "moment alone";
+  };
   effect.plausible = IsWithinReach;
   effect.experiment = "poses of the wrist, held, and the arm swung";
   return effect;

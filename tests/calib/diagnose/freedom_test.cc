@@ -2,7 +2,11 @@
 
 #include "calib/diagnose/freedom.h"
 
+#include <map>
+
 #include "tests/fixtures/diagnosed_arm.h"
+#include "tests/fixtures/sample_motion.h"
+#include "tests/fixtures/sample_robots.h"
 
 namespace armcal::freedom_test {
 
@@ -62,6 +66,110 @@ TEST_F(FreedomTest, NoMotorHasNegativeInertia) {
   ASSERT_NE(armature, diagnosis.effects.end());
   ASSERT_EQ(armature->estimates.size(), 1u);
   ExpectEstimate(*armature, File().links[1].joint.name + ".armature", .2, .3);
+}
+
+// Six joints with the friction of gears, of which the file has a placeholder.
+class OtherFriction : public testing::Test {
+ protected:
+  static constexpr double kViscous = 8, kCoulomb = 5, kArmature = .4;
+  static constexpr CoulombTransition kTransition = {
+      CoulombTransition::Law::kVelocity, .008};
+
+  OtherFriction() {
+    SetRandomInertials(&random_, &file_);
+    for (Link& link : file_.links) {
+      link.joint.viscous = .1;
+      link.joint.coulomb = .05;
+      link.joint.armature = 0;
+    }
+  }
+
+  // Torques of the file's links and of these terms on all joints; viscous
+  // friction of the second so many times as large.
+  LogSet Record(double viscous, double coulomb, double armature,
+                const std::string& name, double on_second = 1) {
+    Robot robot = file_;
+    for (Link& link : robot.links) {
+      link.joint.viscous = viscous;
+      link.joint.armature = armature;
+    }
+    robot.links[1].joint.viscous *= on_second;
+    Log log = RecordMotion(RandomMultisine(&random_, 6, 1.2), 30, .004);
+    AddTorque(robot, &log);
+    for (int j = 0; j < 6; ++j) AddCoulomb(j, coulomb, kTransition, &log);
+    AddNoise(&random_, .005 * ColumnRms(log.tau), &log.tau);
+    LogReaderOptions reader;
+    reader.joint_names = file_.JointNames();
+    return LogSet({WriteFile(LogCsv(log), name)}, reader, {});
+  }
+
+  GapDiagnosis Diagnose(const LogSet& log, const LogSet* reference) const {
+    DiagnosisOptions options;
+    options.forward = false;
+    if (reference != nullptr) options.baseline.trust = .5;
+    return DiagnoseGap(file_, options, log, nullptr, reference);
+  }
+
+  // As terms of all joints, and as nothing else.
+  static void ExpectGears(const GapDiagnosis& diagnosis) {
+    const std::map<std::string, double> truth = {
+        {"viscous", kViscous}, {"coulomb", kCoulomb}, {"armature", kArmature}};
+    size_t found = 0;
+    for (const FoundEffect& effect : diagnosis.effects) {
+      EXPECT_TRUE(effect.missing_term) << effect.effect->name;
+      for (size_t k = 0; k < effect.estimates.size(); ++k) {
+        const EffectEstimate& estimate = effect.estimates[k];
+        const std::string term =
+            estimate.name.substr(estimate.name.find('.') + 1);
+        ASSERT_EQ(truth.count(term), 1u) << estimate.name;
+        EXPECT_NEAR(estimate.value, truth.at(term),
+                    4 * effect.stddev[k] + .02 * truth.at(term))
+            << estimate.name << " +- " << effect.stddev[k];
+        ++found;
+      }
+    }
+    EXPECT_GE(found, 17u);  // of 18; an armature may not be told
+    ASSERT_FALSE(diagnosis.ladder.terms.empty());
+    const Eigen::VectorXd& left = diagnosis.ladder.terms.back().left;
+    for (int j = 0; j < 6; ++j) {
+      EXPECT_LT(left[j], .1 * diagnosis.ladder.without[j]) << j;
+    }
+  }
+
+  std::mt19937_64 random_{1};
+  Robot file_ = SampleRobot("UR5 6R");
+};
+
+TEST_F(OtherFriction, PlaceholdersOfTheFileAreNotBelieved) {
+  const LogSet log = Record(kViscous, kCoulomb, kArmature, "log.csv");
+  const GapDiagnosis diagnosis = Diagnose(log, nullptr);
+  ExpectGears(diagnosis);
+  EXPECT_EQ(diagnosis.ladder.terms.size(), 3u);
+}
+
+// Behind the gears a joint torque sensor has none of their friction, which the
+// motor's torque has.
+TEST_F(OtherFriction, OfAReferenceTellsOfTheLinksAlone) {
+  const LogSet log = Record(kViscous, kCoulomb, kArmature, "motors.csv");
+  const LogSet reference = Record(.3, .2, 0, "sensors.csv");
+  const GapDiagnosis diagnosis = Diagnose(log, &reference);
+  ExpectGears(diagnosis);
+  EXPECT_FALSE(diagnosis.has_reference);
+  EXPECT_FALSE(diagnosis.not_of_reference.empty());
+  ASSERT_FALSE(diagnosis.data.empty());
+  EXPECT_TRUE(diagnosis.data[0].leads);
+}
+
+// One joint's friction is an effect, and the reference one still.
+TEST_F(OtherFriction, OfOneJointIsAnEffect) {
+  const LogSet reference = Record(kViscous, kCoulomb, kArmature, "before.csv");
+  const LogSet log = Record(kViscous, kCoulomb, kArmature, "after.csv", 2);
+  const GapDiagnosis diagnosis = Diagnose(log, &reference);
+  EXPECT_TRUE(diagnosis.has_reference);
+  EXPECT_TRUE(diagnosis.not_of_reference.empty());
+  ASSERT_FALSE(diagnosis.effects.empty());
+  EXPECT_EQ(diagnosis.effects[0].effect->name, "viscous_friction");
+  EXPECT_EQ(diagnosis.effects[0].joint, 1);
 }
 
 }  // namespace armcal::freedom_test

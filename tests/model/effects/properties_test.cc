@@ -9,6 +9,7 @@
 #include "model/dynamics/motor_map.h"
 #include "model/dynamics/recorded_torque.h"
 #include "model/effects/effects.h"
+#include "tests/fixtures/sample_robots.h"
 #include "tests/model/effects/every_effect.h"
 
 namespace armcal::properties_test {
@@ -152,5 +153,29 @@ TEST_P(PropertiesOf, StandInsAreItsMeans) {
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, PropertiesOf, testing::ValuesIn(Effects()),
                          [](const auto& info) { return info.param.name; });
+
+// On a head that pans and tilts about one point a mass at that point is felt by
+// no joint: what hangs on it is a moment of its link, and on other arms a
+// payload.
+TEST(PayloadEffect, IsOnAToolThatMoves) {
+  Robot arm = SampleRobot("2R planar (vertical plane)");
+  std::mt19937_64 random(1);
+  SetRandomInertials(&random, &arm);
+  MotionScale scale;
+  scale.torque = scale.speed = scale.acceleration = Eigen::VectorXd::Ones(2);
+  scale.low = -Eigen::VectorXd::Ones(2);
+  scale.high = Eigen::VectorXd::Ones(2);
+  const auto fits = [&](const std::string& name, int joint) {
+    return FindEffect(name)->unfit({&arm, joint, &scale}).empty();
+  };
+  EXPECT_TRUE(fits("payload", -1));
+  EXPECT_FALSE(fits("added_mass", 1));
+  for (Link& link : arm.links) {
+    link.X_PF.translation().setZero();
+    link.X_ML.translation().setZero();
+  }
+  EXPECT_FALSE(fits("payload", -1));
+  EXPECT_TRUE(fits("added_mass", 1));
+}
 
 }  // namespace armcal::properties_test

@@ -12,20 +12,21 @@
 
 namespace armcal::candidate_torques_test {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Every effect of the catalogue at every joint, evaluated for a robot.
 std::vector<GapCandidate> EvaluatedFor(const Robot& robot,
                                        const EffectArm& arm) {
-  const GapBaseline baseline(robot, {}, VectorXd::Constant(2, 10));
+  const GapBaseline baseline(robot, {},
+                             VectorXd::Constant(robot.num_joints(), 10));
   const std::vector<GapSegment> segments = {
       MakeSegment(arm.motion, arm.Recorded().nominal())};
   GapRows rows(segments, 6);
-  rows.SetNoise(std::vector<Autoregression>(2),
-                Eigen::MatrixXd::Zero(rows.num_thin(), 2));
+  const MatrixXd none = MatrixXd::Zero(rows.num_thin(), robot.num_joints());
+  rows.SetNoise(std::vector<Autoregression>(robot.num_joints()), none);
   std::vector<GapCandidate> candidates =
-      ListCandidates(baseline, rows, arm.scale,
-                     Eigen::MatrixXd::Zero(rows.num_thin(), 2), {}, false);
+      ListCandidates(baseline, rows, arm.scale, none, {}, false);
   EvaluateCandidates(baseline, rows, arm.scale, RecordedTorques(baseline, rows),
                      &candidates);
   return candidates;
@@ -81,6 +82,34 @@ TEST(CandidateTorques, OfJointsWithTheSameTermsServeAnotherRobot) {
   }
   EXPECT_GT(own, .01);
   EXPECT_GT(crosstalk, .01);
+}
+
+// A moment along the only axis that turns its link shows in no joint: what
+// rounding makes of it is no torque, by which a fit would divide.
+TEST(CandidateTorques, OfWhatNoJointShowsThereIsNone) {
+  const EffectArm arm("3R elbow", 20, .01);
+  Robot lift = arm.robot;  // with a joint that swivels, and one that tilts
+  lift.links[0].joint.type = JointType::kPrismatic;
+  for (Link& link : lift.links) {
+    link.X_PF.setIdentity();
+    link.X_PF.translation() << .3, 0, .1;
+    link.X_ML.setIdentity();
+  }
+  lift.links[2].X_PF.rotate(
+      Eigen::AngleAxisd(-M_PI / 2, Eigen::Vector3d::UnitX()));
+  lift.X_LT.setIdentity();
+  const auto candidates = EvaluatedFor(lift, arm);
+  const auto payload = std::find_if(
+      candidates.begin(), candidates.end(),
+      [](const auto& one) { return one.effect->name == "payload"; });
+  ASSERT_NE(payload, candidates.end());
+  const auto shows = [&](int parameter) {
+    const JointRows& torque = payload->torque[parameter];
+    return std::any_of(torque.begin(), torque.end(),
+                       [](const VectorXd& own) { return own.size() > 0; });
+  };
+  EXPECT_TRUE(shows(0) && shows(1) && shows(2));
+  EXPECT_FALSE(shows(3));  // hz
 }
 
 }  // namespace armcal::candidate_torques_test

@@ -37,6 +37,19 @@ std::vector<GapSegment> Read(const std::vector<std::string>& texts) {
   return ReadSegments(kBandwidth, {}, logs);
 }
 
+// A passive joint, or one whose torque was not recorded, has zeros throughout.
+TEST(GapSegments, AskNothingOfJointsWithoutTorque) {
+  Log log = Swing(12);
+  log.tau.col(0).setZero();
+  const auto segments = Read({LogCsv(log)});
+  ASSERT_EQ(segments.size(), 1u);
+  EXPECT_TRUE(segments[0].still.col(0).all());
+  EXPECT_FALSE(segments[0].still.col(1).all());
+  const GapRows rows(segments, kBandwidth);
+  EXPECT_TRUE(rows.runs(0).empty());
+  EXPECT_FALSE(rows.runs(1).empty());
+}
+
 // The log without its rows between t0 and t1.
 std::string Without(const Log& log, double t0, double t1) {
   Log cut = log;
