@@ -189,6 +189,13 @@ std::string WithoutName(const GapDiagnosis& diagnosis) {
   return text + ".";
 }
 
+// A mean square in units of the noise's: it is the noise where two digits say
+// so.
+std::string OfNoise(double mean_square) {
+  if (!(mean_square >= 1.05)) return "the noise";
+  return Format("%.2g times the noise's mean square", mean_square);
+}
+
 // What is left given friction that has changed.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
@@ -214,7 +221,8 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
                  ? "Nothing but friction and timing has changed since the "
                    "reference."
                  : "Nothing is missing in the model but better values: "
-                   "refitting its parameters brings it down to the noise.";
+                   "refitting its parameters brings it down to " +
+                       OfNoise(diagnosis.torque.refit) + ".";
     case GapVerdict::kExplained:
       return Findings(diagnosis) + ".";
     case GapVerdict::kPartlyExplained:

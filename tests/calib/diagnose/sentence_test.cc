@@ -171,4 +171,16 @@ TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {
   }
 }
 
+// How far a refit comes is said as it is: to the noise, or near it.
+TEST(BriefReport, SaysHowFarARefitComes) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  diagnosis.torque.refit = 1.04;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("down to the noise."));
+  diagnosis.torque.refit = 1.83;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("down to 1.8 times the noise's mean square."));
+}
+
 }  // namespace armcal::sentence_test
