@@ -46,6 +46,13 @@ class Diagnoser {
     AdvanceTorque(delay_, &segments);
     return segments;
   }
+  // How far the numbers of a robot, the file's or a fitted one, are trusted.
+  BaselineOptions Trusted() const {
+    BaselineOptions options = options_.baseline;
+    options.trust = result_.trust;
+    options.file = &robot_;
+    return options;
+  }
   // Steps whose length depends on what is found.
   void Tell(const std::string& step) const {
     if (options_.progress) options_.progress(step, -1);
@@ -88,9 +95,7 @@ class Diagnoser {
 void Diagnoser::FitBaseline(const MissingTerms& missing,
                             std::vector<GapSegment>* segments,
                             std::vector<GapSegment>* before) {
-  BaselineOptions trust = options_.baseline;
-  trust.trust = result_.trust;
-  trust.file = &robot_;
+  BaselineOptions trust = Trusted();
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
@@ -124,9 +129,7 @@ void Diagnoser::FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
   const double given = result_.trust;
   std::vector<GapSegment> none;
   for (int round = 0; round < kMost; ++round) {
-    BaselineOptions options = options_.baseline;
-    options.trust = result_.trust;
-    const bool given_up = GiveUpContradicted(*fit_, file, options,
+    const bool given_up = GiveUpContradicted(*fit_, file, Trusted(),
                                              bandwidth_hz_, *segments, missing);
     bool again = given_up || HoldNegative(*fit_, missing);
     if (!given_up && options_.may_trust_less && result_.trust == given) {
@@ -148,20 +151,18 @@ void Diagnoser::FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
 // A reference whose friction or armature is not that of the logs, on many
 // joints at once, is of other drives or other torque sensors. It tells of the
 // links then, and nothing else: its robot without these terms is what a file
-// is.
+// is. A calibration has its friction as well as a reference.
 void Diagnoser::ForgetOtherFriction(MissingTerms* missing,
                                     std::vector<GapSegment>* segments) {
+  if (result_.has_calibration) return;
   result_.not_of_reference = ContradictedTerms(*fit_);
   if (result_.not_of_reference.empty()) return;
   result_.has_reference = false;
   const Robot links = baseline_->robot();
   result_.trust = options_.trust_in_links;
-  BaselineOptions options = options_.baseline;
-  options.trust = result_.trust;
-  options.file = &robot_;
   const std::vector<JointTerm> all = {JointTerm::kViscous, JointTerm::kCoulomb,
                                       JointTerm::kArmature};
-  *missing = FitWithout(all, links, options, bandwidth_hz_, *segments);
+  *missing = FitWithout(all, links, Trusted(), bandwidth_hz_, *segments);
   std::vector<GapSegment> none;
   fit_.reset();  // it refers to the baseline
   FitBaseline(*missing, segments, &none);

@@ -136,10 +136,11 @@ std::string WhyNotRecorded(const EffectSite& site) {
   return is_zero ? "the joint's torque is recorded as zero throughout" : "";
 }
 
-bool MovesTool(const Robot& robot) {
+bool CarriesPayload(const Robot& robot) {
   constexpr double kStep = .7;      // rad or m
   constexpr double kOnAxis = 1e-9;  // m
   const int n = robot.num_joints();
+  if (n == 1) return true;
   const Eigen::VectorXd bent = Eigen::VectorXd::Constant(n, kStep);
   const Eigen::Vector3d at = ToolPose(robot, bent).translation();
   for (int j = 0; j < n; ++j) {

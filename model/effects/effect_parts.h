@@ -23,9 +23,10 @@ double Radian(const EffectSite& site);
 // the other joints in the middle of theirs, all held.
 double CarriedInertia(const EffectSite& site);
 double MovingMass(const Robot& robot);  // kg, of all links
-// Whether any joint moves the origin of the tool's frame, in which a mass shows
-// then. On a head that pans and tilts about one point none does.
-bool MovesTool(const Robot& robot);
+// Whether what hangs on the last link is told as a payload: any joint moves the
+// origin of the tool's frame, in which a mass shows then, or there is one joint
+// alone. On a head that pans and tilts about one point none does.
+bool CarriesPayload(const Robot& robot);
 // Of a point mass with first moments h about the origin, kg m^2 about it:
 //   (|h|^2 1 - h h') / mass,
 // its lever at most a metre, beyond which no load is: a search passes masses

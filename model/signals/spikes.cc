@@ -153,11 +153,10 @@ Outlying FindOutlying(const Eigen::VectorXd& x, int reach, double least) {
     }
     size = (x - result.level).cwiseAbs();
     result.deviation = Percentile(size, 80) / kNormal80;
-    const double limit = std::max(least, kThreshold * result.deviation);
-    result.limit = limit;
-    if (limit <= 0) break;
+    result.limit = std::max(least, kThreshold * result.deviation);
+    if (result.limit <= 0) break;
     const Eigen::Array<bool, Eigen::Dynamic, 1> last = result.marked;
-    result.marked = size.array() > limit;
+    result.marked = size.array() > result.limit;
     if ((result.marked == last).all()) break;
   }
   return result;

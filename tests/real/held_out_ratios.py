@@ -21,9 +21,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 import result_files  # noqa: E402
+from planted_log import UR10E  # noqa: E402
 from runs import DATA  # noqa: E402
 
-UR10E = ("--torque_constants=14.87,13.26,11.13,10.62,11.03,11.47", "--bandwidth=2")
 SLOW = ("--bandwidth=2",)
 
 
@@ -38,8 +38,8 @@ def pairs():
     for fitted in 1, 3, 5:
         yield two("dfki_acrobot", f"reference_0{fitted}.csv.gz",
                   f"reference_0{fitted + 1}.csv.gz")
-    yield two("ur10e_free", "id_20s.csv", "id_30s.csv", *UR10E)
-    yield two("ur10e_free", "id_40s.csv", "id_50s.csv", *UR10E)
+    yield two("ur10e_free", "id_20s.csv", "id_30s.csv", *UR10E, *SLOW)
+    yield two("ur10e_free", "id_40s.csv", "id_50s.csv", *UR10E, *SLOW)
     yield two("kr300", "log_A.csv.gz", "log_B.csv.gz", *SLOW)
     yield two("dvrk_psm", "reference.csv.gz", "reference_val.csv.gz", *SLOW)
     yield two("dfki_simple_pendulum", "swing_A.csv", "swing_B.csv", *SLOW)

@@ -53,11 +53,10 @@ Effect AddedMass() {
   };
   effect.estimates = AddedMassEstimates;
   effect.unfit = [](const EffectSite& site) -> std::string {
-    const int n = site.robot->num_joints();
-    const bool is_payload =
-        site.joint + 1 == n && (n == 1 || MovesTool(*site.robot));
-    return is_payload ? "on the last link it is a payload"
-                      : WhyNotCarried(site);
+    const bool last = site.joint + 1 == site.robot->num_joints();
+    return last && CarriesPayload(*site.robot)
+               ? "on the last link it is a payload"
+               : WhyNotCarried(site);
   };
   effect.experiment = "poses of the joints before, held, and swung";
   return effect;

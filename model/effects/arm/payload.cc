@@ -97,7 +97,7 @@ Effect Payload() {
   };
   effect.estimates = PayloadEstimates;
   effect.unfit = [](const EffectSite& site) -> std::string {
-    if (site.robot->num_joints() == 1 || MovesTool(*site.robot)) return "";
+    if (CarriesPayload(*site.robot)) return "";
     return "no joint moves the tool's frame: a mass on the last link tells its "
            "moment alone";
   };
