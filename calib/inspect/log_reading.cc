@@ -114,18 +114,22 @@ class Reader {
 
   // What a unit that has a hint leaves has to be less; no more is asked, as the
   // inertias of links that move a thousand times as far are free enough to
-  // explain much of it.
+  // explain much of it: all of it where joints only slide. Then torques cannot
+  // choose, and where the joints can be does, if torques do not object.
   void TakeHintedUnits() {
-    const std::pair<Kind, std::string> hinted[] = {
+    const std::pair<Kind, PositionUnitHint> hinted[] = {
         {Kind::kDegrees, hints_.units.degrees},
         {Kind::kMillimetres, hints_.units.millimetres}};
     for (const auto& [kind, hint] : hinted) {
-      if (hint.empty()) continue;
+      if (hint.evidence.empty()) continue;
       Candidate candidate = InOtherUnit(best_, kind);
-      candidate.change.hint = hint;
+      candidate.change.hint = hint.evidence;
       const HeldOutFit held_out = HeldOut(candidate.reading);
-      if (held_out.residual_percent < held_out_.residual_percent)
-        Accept(candidate, Misfit(candidate.reading), 1, held_out);
+      const bool objects =
+          hint.out_of_reach
+              ? IsClearlyBetter(held_out, held_out_, {})
+              : held_out.residual_percent >= held_out_.residual_percent;
+      if (!objects) Accept(candidate, Misfit(candidate.reading), 1, held_out);
     }
   }
 

@@ -42,14 +42,15 @@ double Most(const VectorXd& values) {
   return Quantile({size.begin(), size.end()}, .99);
 }
 
-// How many times as far, or as fast, as its limits a joint goes; 0 where the
-// file has none.
-double BeyondLimits(const Joint& joint, const VectorXd& q, const VectorXd& qd) {
-  const auto share = [](double value, double limit) {
-    return limit > 0 && std::isfinite(limit) ? value / limit : 0;
-  };
-  const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
-  return std::max(share(Most(q), limit), share(Most(qd), joint.velocity));
+// A share of a limit, rad or m or their rates; 0 where the file has none.
+double ShareOf(double limit, double value) {
+  return limit > 0 && std::isfinite(limit) ? value / limit : 0;
+}
+
+// How many times as far from zero as its limits a joint goes.
+double BeyondPositions(const Joint& joint, const VectorXd& q) {
+  return ShareOf(std::max(std::abs(joint.lower), std::abs(joint.upper)),
+                 Most(q));
 }
 
 class Hints {
@@ -63,10 +64,11 @@ class Hints {
         wrong_as_logged_(WrongVelocities(robot, findings)),
         qd_(qd) {}
 
-  std::string Of(const PositionUnits& units) const {
+  PositionUnitHint Of(const PositionUnits& units) const {
+    PositionUnitHint hint = OfLimits(units);
     if (VelocitiesTell(units))
-      return "the recorded velocities are the positions' slopes then";
-    return OfLimits(units);
+      hint.evidence = "the recorded velocities are the positions' slopes then";
+    return hint;
   }
 
  private:
@@ -86,16 +88,26 @@ class Hints {
            !AnyConcerned(units, WrongVelocities(robot_, log_, stamps_, units));
   }
 
-  std::string OfLimits(const PositionUnits& units) const {
+  // A file's velocity limit may be a placeholder below the real one; where a
+  // joint can be is drawn in its geometry, so positions say more.
+  PositionUnitHint OfLimits(const PositionUnits& units) const {
+    PositionUnitHint hint;
+    bool within = true;  // of all joints concerned, in that unit
     for (int j = 0; j < robot_.num_joints(); ++j) {
       if (!Concerns(units, j)) continue;
       const Joint& joint = robot_.links[j].joint;
-      const double beyond = BeyondLimits(joint, log_.q.col(j), qd_.col(j));
-      if (!(beyond > 1 / std::sqrt(units.Of(joint)))) continue;
-      return Format("as logged %s is at %.3g times its limits",
-                    joint.name.c_str(), beyond);
+      const double unit = units.Of(joint), least = 1 / std::sqrt(unit);
+      const double positions = BeyondPositions(joint, log_.q.col(j));
+      const double beyond =
+          std::max(positions, ShareOf(joint.velocity, Most(qd_.col(j))));
+      hint.out_of_reach = hint.out_of_reach || positions > least;
+      within = within && positions * unit <= 1;
+      if (!(beyond > least) || !hint.evidence.empty()) continue;
+      hint.evidence = Format("as logged %s is at %.3g times its limits",
+                             joint.name.c_str(), beyond);
     }
-    return "";
+    hint.out_of_reach = hint.out_of_reach && within;
+    return hint;
   }
 
   const Robot& robot_;

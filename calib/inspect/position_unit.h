@@ -21,9 +21,15 @@ struct PositionUnits {
   bool any() const { return degrees || millimetres; }
 };
 
-// What speaks for either of these units, but for torques; empty: nothing.
+// What speaks for a unit, but for torques.
+struct PositionUnitHint {
+  std::string evidence;  // empty: nothing
+  // Positions are where the joints cannot be as logged, and can in that unit.
+  bool out_of_reach = false;
+};
+
 struct PositionUnitHints {
-  std::string degrees, millimetres;
+  PositionUnitHint degrees, millimetres;
 };
 
 // Recorded velocities that are the slopes of positions in that unit, of all

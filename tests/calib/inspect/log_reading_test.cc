@@ -92,7 +92,7 @@ TEST_F(LogReadingTest, TheSignOfEitherSignal) {
 TEST_F(LogReadingTest, AUnitWithAHintHasToFitNoWorse) {
   log_.q *= 180 / M_PI;
   ReadingHints hints;
-  hints.units.degrees = "the limits";
+  hints.units.degrees.evidence = "the limits";
   const ReadingFinding found =
       FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints);
   ASSERT_EQ(found.changes.size(), 1u);
@@ -101,6 +101,35 @@ TEST_F(LogReadingTest, AUnitWithAHintHasToFitNoWorse) {
   log_ = arm_.log;
   EXPECT_TRUE(FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints)
                   .changes.empty());
+}
+
+// A mass moved in mm explains forces as well as one a thousand times as heavy
+// moved in m: where it can be decides. Torques that object are heard: those of
+// an arm that turns.
+TEST_F(LogReadingTest, PositionsOutOfReachDecideWhereTorquesCannot) {
+  ReadingHints hints;
+  hints.units.degrees = {"the limits", true};
+  EXPECT_TRUE(FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints)
+                  .changes.empty());
+  robot_.links.resize(1);
+  robot_.links[0].joint.type = JointType::kPrismatic;
+  Log log = log_;
+  log.q.conservativeResize(Eigen::NoChange, 1);
+  log.tau.conservativeResize(Eigen::NoChange, 1);
+  log.qd.resize(0, 0);
+  for (Eigen::Index k = 0; k < log.q.rows(); ++k) {
+    const double t = log.t[k] - log.t[0];
+    log.q(k, 0) = 200 * std::sin(3 * t);
+    log.tau(k, 0) = -30 * .2 * 9 * std::sin(3 * t);
+  }
+  hints.units = {};
+  EXPECT_TRUE(FindReading(robot_, UniformSeries(log, .01, .05, 8), hints)
+                  .changes.empty());
+  hints.units.millimetres = {"the limits", true};
+  const ReadingFinding found =
+      FindReading(robot_, UniformSeries(log, .01, .05, 8), hints);
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_TRUE(found.reading.units.millimetres);
 }
 
 TEST_F(LogReadingTest, SignOfThePosition) {
