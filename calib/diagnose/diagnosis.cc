@@ -219,7 +219,8 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   result_.traces =
       TraceHeldOut(held_out_->rows(), residuals, !result_.effects.empty());
   Simulate(split ? training : *validation, split);
-  result_.moved = ListMoved(*fit_, fit_->model_after());
+  result_.moved =
+      ListMoved(*fit_, fit_->model_after(), result_.corrected.effects);
   result_.shown = ListShown(*fit_, fit_->model_after());
   result_.drifts = ListRunDrifts(*fit_, fit_->model_after());
   std::vector<FoundEffect> found = result_.effects;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/candidates/law_share.h"
 #include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
@@ -32,6 +33,38 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
   return parameter;
 }
 
+// What laws of friction add to a term of a joint along the logs, SI units:
+// those that the reference showed, and those found as a change since then.
+struct Added {
+  double before = 0, since = 0;
+  double variance = 0;  // of `since`
+};
+
+// A share is in proportion to its law's first parameter, which is the size of
+// each law that terms stand for. The reference's laws come first.
+Added AddedByLaws(const RefinedEffects& refined,
+                  const std::vector<CarriedEffect>& effects, int joint,
+                  JointTerm term) {
+  Added added;
+  const size_t known = effects.size() - refined.effects.size();
+  Eigen::Index parameter = 0;
+  for (size_t k = 0; k < effects.size(); ++k) {
+    const GapCandidate& found = effects[k].found;
+    const double share = found.joint == joint ? ShareOf(effects[k], term) : 0;
+    if (k < known) {
+      added.before += share;
+      continue;
+    }
+    if (share != 0) {
+      added.since += share;
+      added.variance += std::pow(share / found.p[0], 2) *
+                        refined.covariance(parameter, parameter);
+    }
+    parameter += found.p.size();
+  }
+  return added;
+}
+
 }  // namespace
 
 // Parameters of the model that are far from the file's, in units of their
@@ -39,8 +72,9 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
 // them, a large value is the data's noise, so that they have to be clear of
 // their own deviation too. With a reference, columns of the day are told and
 // not those that the reference already moved.
-std::vector<MovedParameter> ListMoved(const GapFit& fit,
-                                      const Eigen::VectorXd& x) {
+std::vector<MovedParameter> ListMoved(
+    const GapFit& fit, const Eigen::VectorXd& x,
+    const std::vector<CarriedEffect>& effects) {
   const Eigen::MatrixXd covariance = fit.screen().BaselineCovariance();
   const auto& columns = fit.baseline().columns();
   const bool since_reference =
@@ -51,15 +85,24 @@ std::vector<MovedParameter> ListMoved(const GapFit& fit,
   for (int c = 0; c < x.size(); ++c) {
     const BaselineColumn& column = fit.baseline().columns()[c];
     MovedParameter parameter = Describe(column, fit.baseline().robot());
-    const double own = std::sqrt(covariance(c, c));
     const double prior = fit.baseline().prior().Stddev(c);
     const bool of_day = column.kind == BaselineColumn::Kind::kDay;
     if (parameter.name.empty() || of_day != since_reference) continue;
+    Added added;
+    if (of_day) {
+      added = AddedByLaws(fit.refined(), effects, column.joint,
+                          static_cast<JointTerm>(column.index));
+    }
+    const double change = x[c] + added.since / column.spread;
+    const double own = std::sqrt(covariance(c, c) +
+                                 added.variance / std::pow(column.spread, 2));
     const double least = of_day ? Limits().notable : Limits().far;
-    if (std::abs(x[c]) < std::max(least * prior, Limits().far * own)) continue;
-    parameter.value = parameter.nominal + x[c] * column.spread;
+    if (std::abs(change) < std::max(least * prior, Limits().far * own))
+      continue;
+    parameter.nominal += added.before;
+    parameter.value = parameter.nominal + change * column.spread;
     parameter.stddev = own * column.spread;
-    parameter.deviations = x[c] / prior;
+    parameter.deviations = change / prior;
     moved.push_back(parameter);
   }
   std::sort(moved.begin(), moved.end(),

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/candidates/corrected_robot.h"
 #include "calib/diagnose/select/fit.h"
 
 namespace armcal {
@@ -19,8 +20,12 @@ struct MovedParameter {
 // Those that the data move by more than two standard deviations of the prior
 // and of their own, the farthest first; x: the baseline's values. With a
 // reference: friction that is not what it was then, by more than two of its own
-// and half of what is usual from day to day.
-std::vector<MovedParameter> ListMoved(const GapFit& fit,
-                                      const Eigen::VectorXd& x);
+// and half of what is usual from day to day. What laws of friction that were
+// found (`effects`, a CorrectedRobot's with their shares) add to it along
+// the logs is a part of it: doubled friction that builds up over a way is
+// doubled friction.
+std::vector<MovedParameter> ListMoved(
+    const GapFit& fit, const Eigen::VectorXd& x,
+    const std::vector<CarriedEffect>& effects);
 
 }  // namespace armcal

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "calib/diagnose/candidates/law_share.h"
 #include "calib/diagnose/judge/testability.h"
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
@@ -22,9 +23,11 @@ class GapFitTest : public testing::Test {
       : arm_("2R planar (vertical plane)", 30, .005),
         baseline_(arm_.robot, {}, VectorXd::Constant(2, 10)) {}
 
-  void Fit(const Robot& truth, double noise) {
+  // With `more` torque beside the truth's, samples x n.
+  void Fit(const Robot& truth, double noise, const MatrixXd& more = {}) {
     MatrixXd tau =
         RecordedTorque(truth, baseline_.transitions(), arm_.motion).nominal();
+    if (more.size() > 0) tau += more;
     AddNoise(&random_, VectorXd::Constant(2, noise), &tau);
     GapSegment segment = MakeSegment(arm_.motion, tau);
     segment.still.col(1).setConstant(stands_);
@@ -55,7 +58,7 @@ TEST_F(GapFitTest, WhatIsFarFromTheFileIsListed) {
   Robot truth = arm_.robot;
   truth.links[1].joint.viscous *= 1.15;
   Fit(truth, .05);
-  const auto moved = ListMoved(*fit_, fit_->refined().baseline);
+  const auto moved = ListMoved(*fit_, fit_->refined().baseline, {});
   ASSERT_FALSE(moved.empty());
   EXPECT_EQ(moved[0].name, "joint2.viscous");
   EXPECT_EQ(moved[0].unit, "N m s/rad");
@@ -67,7 +70,29 @@ TEST_F(GapFitTest, WhatIsFarFromTheFileIsListed) {
 
 TEST_F(GapFitTest, WhatIsAsTheFileSaysIsNot) {
   Fit(arm_.robot, .05);
-  EXPECT_THAT(ListMoved(*fit_, fit_->refined().baseline), testing::IsEmpty());
+  EXPECT_THAT(ListMoved(*fit_, fit_->refined().baseline, {}),
+              testing::IsEmpty());
+}
+
+// Coulomb friction of 1.5 N m doubled by bristles that bend over so short a way
+// that nearly all of the second half is there along the motion.
+TEST_F(GapFitTest, FrictionOfALawIsAPartOfIt) {
+  baseline_.FreeDays();
+  RecordedTorque recorded = arm_.Recorded();
+  Fit(arm_.robot, .05,
+      arm_.Change(*FindEffect("presliding"), 1, Eigen::Vector2d(1.5, .004),
+                  &recorded));
+  CorrectedRobot corrected = MakeCorrectedRobot(
+      baseline_, fit_->model_after(), fit_->refined().effects, fit_->scale());
+  SetLawShares(baseline_, fit_->data(), &corrected);
+  ASSERT_EQ(corrected.effects.size(), 1u);
+  const auto moved = ListMoved(*fit_, fit_->model_after(), corrected.effects);
+  ASSERT_FALSE(moved.empty());
+  EXPECT_EQ(moved[0].name, "joint2.coulomb");
+  EXPECT_DOUBLE_EQ(moved[0].nominal, 1.5);
+  EXPECT_GT(moved[0].value, 2.5);
+  EXPECT_LT(moved[0].value, 3 + 4 * moved[0].stddev);
+  EXPECT_LT(moved[0].stddev, .1);
 }
 
 TEST_F(GapFitTest, AJointThatStandsShowsNothing) {
