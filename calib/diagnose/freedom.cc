@@ -97,7 +97,8 @@ std::optional<size_t> LeastNeeded(const GapFit& fit,
 }  // namespace
 
 std::vector<const Effect*> ContradictedTerms(const GapFit& fit) {
-  if (!fit.rows().has_evidence()) return {};
+  // One joint's friction is one number among others that may have changed.
+  if (!fit.rows().has_evidence() || fit.rows().num_joints() < 2) return {};
   std::vector<TermChange> changes = TermChanges(fit);
   while (const auto least = LeastNeeded(fit, changes)) {
     changes.erase(changes.begin() + static_cast<long>(*least));

@@ -12,7 +12,7 @@ namespace armcal {
 // Friction and armature that the model has wrong on many joints at once: robot
 // files have placeholders of them, and a reference may be of other torque
 // sensors, behind the gears. The terms whose changes on all joints together
-// explain, on three joints or all of smaller arms, more of what the chosen
+// explain, on three joints or both of two, more of what the chosen
 // effects leave than they leave themselves, each of them asked for as an effect
 // is on as many joints. A single effect that explains the same was chosen
 // before.

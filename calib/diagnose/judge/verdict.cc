@@ -40,7 +40,10 @@ GapVerdict JudgeGap(const GapFacts& facts) {
     return much_left || held_out_left ? GapVerdict::kPartlyExplained
                                       : GapVerdict::kExplained;
   }
-  if (much_left || facts.found_without_name) return GapVerdict::kUnknown;
+  // Nor is what was fitted without a name missing from a file that predicts
+  // what was held out to the noise.
+  const bool found = facts.found_without_name && nominal > 0;
+  if (much_left || found) return GapVerdict::kUnknown;
   return nominal > Limits().left && refit < Limits().absorbed * nominal
              ? GapVerdict::kAbsorbed
              : GapVerdict::kNoiseFloor;

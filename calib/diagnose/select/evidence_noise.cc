@@ -170,12 +170,16 @@ double LikeliestScale(const GapScreen& screen, const EvidenceNoise& noise,
 // judge of how white the rest is. With variances at each model's own fixed
 // point the quadratic terms are N_j / time_j in both and cancel; the logarithms
 // of the variances remain, and what the baseline's values cost by their prior.
-double LargerModelOdds(const GapScreen& smaller, const GapScreen& larger,
-                       const EvidenceNoise& noise) {
+// What is missing hides the rest of its joint from the baseline, too, so that
+// the times are looked at again once the larger model's own variances weigh it.
+LargerModel CompareLarger(const GapScreen& smaller, const GapScreen& larger,
+                          const EvidenceNoise& noise) {
   const int n = smaller.num_joints();
   Weighed with{larger, noise.stddev(), FitAll(larger)};
   Weighed without{smaller, noise.stddev(), FitAll(smaller)};
-  const VectorXd time = noise.time.cwiseMin(TimesOf(with.Residuals()));
+  VectorXd time = noise.time.cwiseMin(TimesOf(with.Residuals()));
+  VariancesUnder(time, noise, &with);
+  time = time.cwiseMin(TimesOf(with.Residuals()));
   const VectorXd v1 = VariancesUnder(time, noise, &with);
   const VectorXd v0 = VariancesUnder(time, noise, &without);
   double odds =
@@ -183,7 +187,7 @@ double LargerModelOdds(const GapScreen& smaller, const GapScreen& larger,
   for (int j = 0; j < n; ++j) {
     odds += smaller.num_rows(j) / time[j] * std::log(v0[j] / v1[j]);
   }
-  return odds;
+  return {odds, v0 - v1};
 }
 
 }  // namespace armcal

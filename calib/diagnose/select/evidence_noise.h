@@ -44,12 +44,18 @@ double LikeliestScale(const GapScreen& screen, const EvidenceNoise& noise,
                       const std::vector<int>& which,
                       const std::vector<double>& factors);
 
-// 2 log of the odds of a larger model against a smaller one. The larger one
-// says how many samples are independent, for both (tempered likelihoods can be
-// compared under one temperature only); variances are each model's own:
+// A larger model against a smaller one.
+struct LargerModel {
+  double odds = 0;            // 2 log
+  Eigen::VectorXd explained;  // n, variance that the smaller one leaves more
+};
+
+// The larger model says how many samples are independent, for both (tempered
+// likelihoods can be compared under one temperature only); variances are each
+// model's own:
 //   sum_j N_j / time_j log(v0_j / v1_j) + cost0 - cost1,
 // cost: of the baseline's values by their prior. `noise`: the smaller one's.
-double LargerModelOdds(const GapScreen& smaller, const GapScreen& larger,
-                       const EvidenceNoise& noise);
+LargerModel CompareLarger(const GapScreen& smaller, const GapScreen& larger,
+                          const EvidenceNoise& noise);
 
 }  // namespace armcal

@@ -8,11 +8,12 @@
 
 namespace armcal {
 
-// Effects one by one, each the one whose larger model is the most likely given
-// those before (LargerModelOdds less the penalty of its parameters), as long as
-// that is above the threshold. The regression's noise is then that of what the
-// last of these models leaves: an effect that explains most of the torque shows
-// how small the noise is only once it is in the model.
+// Effects one by one, of those that explain most of the gap the one whose
+// larger model is the most likely given those before (CompareLarger's odds less
+// the penalty of its parameters), as long as that is above the threshold. The
+// regression's noise is then that of what the last of these models leaves: an
+// effect that explains most of the torque shows how small the noise is only
+// once it is in the model.
 std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
                              const SelectionOptions& options,
                              GapRegression* regression);

@@ -66,7 +66,7 @@ double PlacesOfPulses(const GapRows& rows) {
 
 // All sizes are compared under one correlation time, the least that any of them
 // leaves: evidences that are tempered by different exponents cannot be compared
-// (LargerModelOdds).
+// (CompareLarger).
 double DiscrepancySize(const GapScreen& screen,
                        const std::vector<int>& discrepancy,
                        const VectorXd& stddev) {

@@ -23,6 +23,13 @@ Effect TimeBase() {
     if (rate != 0) robot->clock = [=](double t) { return (1 + rate) * t; };
     robot->clock_unevenness = p[1];
   };
+  // A clock's rate changes all inertias by its square and all viscous friction
+  // by itself. Many joints do not change so together; one may.
+  effect.unfit = [](const EffectSite& site) -> std::string {
+    return site.robot->num_joints() > 1
+               ? ""
+               : "one joint's inertia and friction look the same";
+  };
   effect.experiment = "the log beside that of another clock";
   return effect;
 }

@@ -58,6 +58,15 @@ TEST(JudgeGap, WhatHasNoNameIsUnknown) {
   EXPECT_NE(JudgeGap(facts), GapVerdict::kUnknown);
 }
 
+TEST(JudgeGap, NothingIsMissingFromAFileThatPredictsToTheNoise) {
+  GapFacts facts = Facts(.99, 1.02, 1.02);
+  facts.found_without_name = true;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kNoiseFloor);
+  facts = Facts(1.02, 1.02, 1.02);
+  facts.found_without_name = true;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
+}
+
 // Explained brings the gap to within 30 % of what is removable.
 TEST(JudgeGap, ThirtyPercentMayBeLeft) {
   GapFacts facts = Facts(12, 11, 3.9);

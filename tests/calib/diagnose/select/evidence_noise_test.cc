@@ -70,15 +70,16 @@ TEST_F(EvidenceNoiseTest, TheLargerModelSaysHowManyRowsAreIndependent) {
   const GapScreen smaller = Screen(wave + Noise(0), 1e-3);
   const EvidenceNoise noise = SettleNoise(smaller, VectorXd::Ones(1));
   EXPECT_GT(noise.time[0], 50);
-  const double odds = LargerModelOdds(smaller, With(smaller, wave), noise);
+  const double odds = CompareLarger(smaller, With(smaller, wave), noise).odds;
   EXPECT_NEAR(odds, kRows * std::log(3.), .15 * kRows * std::log(3.));
 }
 
 TEST_F(EvidenceNoiseTest, AColumnOfNothingGainsNothing) {
   const GapScreen smaller = Screen(Noise(0), 1e-3);
   const EvidenceNoise noise = SettleNoise(smaller, VectorXd::Ones(1));
-  EXPECT_LT(std::abs(LargerModelOdds(smaller, With(smaller, Noise(0)), noise)),
-            12);
+  EXPECT_LT(
+      std::abs(CompareLarger(smaller, With(smaller, Noise(0)), noise).odds),
+      12);
 }
 
 // What the rows hold of the columns, their size is chosen by; not larger.
