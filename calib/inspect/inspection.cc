@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/jump_findings.h"
 #include "calib/inspect/position_unit.h"
 #include "calib/inspect/reading_text.h"
 #include "calib/inspect/torque_unit.h"
@@ -49,38 +50,62 @@ class Inspector {
 
   LogInspection Run(int drawn_bins) {
     result_.stamps = AuditStamps(log_);
+    if (!(result_.stamps.mean_step > 0)) {
+      throw InputError(result_.path, "", "all rows have the same time",
+                       "expected stamps that rise");
+    }
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
     if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
+    result_.jumps = FindPositionJumps(robot_, log_);
+    MendJumps(result_.jumps.joints, &log_);
     result_.findings = AuditChannels(robot_, log_, result_.stamps);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
     AddUnscaled();
     AddVelocityDelays();
     AddClock();
+    const auto jumps =
+        JumpFindings(robot_, log_.t, result_.jumps, result_.clock.wrong());
+    result_.findings.insert(result_.findings.begin(), jumps.begin(),
+                            jumps.end());
     result_.duration = log_.t[log_.size() - 1];
     DescribeMotion();
-    // What stands still for no reason would be explained by anything.
-    const bool stuck =
-        std::any_of(result_.findings.begin(), result_.findings.end(),
-                    [](const InspectionFinding& f) {
-                      return f.finding == "stuck" || f.finding == "no_torque";
-                    });
-    if (result_.stamps.mean_step > 0) {
-      const UniformSeries series = Series();
-      DescribeSpeed(series);
-      if (!stuck) ReadTorques(series);
+    const UniformSeries series = Series();
+    DescribeSpeed(series);
+    if (!CanAsk()) {
+      result_.coverage.reason =
+          "torques are not asked for signs, order, units and gravity while a "
+          "column is zero, stuck or jumps";
+    } else {
+      ReadTorques(series);
     }
-    if (result_.reading.units.any()) TakeUnits();
+    if (result_.reading.units.any()) {
+      TakeUnits();
+    } else {
+      SayOfAllVelocities(robot_, log_, &result_.findings);
+    }
     return result_;
   }
 
  private:
+  // What stands still or jumps for no reason would be explained by anything.
+  bool CanAsk() const {
+    if (log_.tau.size() == 0) return true;  // nothing is
+    return std::none_of(result_.findings.begin(), result_.findings.end(),
+                        [](const InspectionFinding& f) {
+                          return f.finding == "stuck" ||
+                                 f.finding == "no_torque" ||
+                                 f.finding == "position_jump" ||
+                                 f.finding == "missing_time";
+                        });
+  }
+
   // The cause before what follows from it, and the motion's figures in rad and
   // m.
   void TakeUnits() {
     const PositionUnits& units = result_.reading.units;
-    result_.velocity_as_it_is = PutPositionUnitFirst(
-        robot_, log_, result_.stamps, units, &result_.findings);
+    result_.velocity_as_it_is =
+        PutPositionUnitFirst(robot_, log_, units, &result_.findings);
     for (VectorXd* figure :
          {&result_.travel, &result_.top_speed, &result_.tracking_rms}) {
       for (int j = 0; j < figure->size(); ++j) {
@@ -163,11 +188,10 @@ class Inspector {
                                           OptionName("torque_constants");
       return;
     }
-    const ReadingFinding found = FindReading(
-        robot_, series,
-        {Tells(), !result_.clock.wrong(),
-         HintsOfPositionUnit(robot_, log_, result_.stamps, result_.findings,
-                             series.motion().qd)});
+    const ReadingFinding found =
+        FindReading(robot_, series,
+                    {Tells(), !result_.clock.wrong(),
+                     HintsOfPositionUnit(robot_, log_, series.motion().qd)});
     result_.reading = found.reading;
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
@@ -277,8 +301,10 @@ LogInspection InspectLog(const Robot& robot, const LogSource& log,
   return Inspector(robot, log, options).Run(drawn_bins);
 }
 
-Log Mended(const Robot& robot, const Log& log,
+Log Mended(const Robot& robot, const Log& recorded,
            const LogInspection& inspection) {
+  Log log = recorded;
+  MendJumps(inspection.jumps.joints, &log);
   Log mended = log;
   mended.t = inspection.rebuilds_time ? inspection.clock.t
                                       : inspection.stamps.unit * log.t;

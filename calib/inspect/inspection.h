@@ -10,6 +10,7 @@
 #include "calib/inspect/torque_scale.h"
 #include "calib/logs/channel_audit.h"
 #include "calib/logs/inspection_finding.h"
+#include "calib/logs/position_jumps.h"
 #include "calib/logs/sample_clock.h"
 #include "model/log_files/log_reader.h"
 #include "model/log_files/torque_columns.h"
@@ -26,11 +27,12 @@ struct LogInspection {
   StampFigures stamps;
   SampleClock clock;
   bool rebuilds_time = false;  // the log fits better by the clock's time
-  std::string spelling;        // LogReader's
-  std::string torque_source;   // empty: none, but commands or currents
-  UnscaledDrives unscaled;     // currents or voltages without constants
-  Eigen::VectorXd travel;      // per joint, rad or m
-  Eigen::VectorXd top_speed;   // rad/s or m/s
+  LogJumps jumps;
+  std::string spelling;       // LogReader's
+  std::string torque_source;  // empty: none, but commands or currents
+  UnscaledDrives unscaled;    // currents or voltages without constants
+  Eigen::VectorXd travel;     // per joint, rad or m
+  Eigen::VectorXd top_speed;  // rad/s or m/s
   // Rms of command minus position, rad or m; empty where no command is logged.
   Eigen::VectorXd tracking_rms;
   TorqueScales torque_scales;   // empty where no torque was read
@@ -57,7 +59,9 @@ struct LogInspection {
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
                          const LogReaderOptions& options, int drawn_bins = 0);
 
-// The log as the reading has it, with its time in s, or the clock's time.
-Log Mended(const Robot& robot, const Log& log, const LogInspection& inspection);
+// The log as the reading has it, with its time in s, or the clock's time, and
+// without what of its jumps can be mended.
+Log Mended(const Robot& robot, const Log& recorded,
+           const LogInspection& inspection);
 
 }  // namespace armcal

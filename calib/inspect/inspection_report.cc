@@ -14,7 +14,9 @@ using nlohmann::json;
 std::string FindingText(const InspectionFinding& finding) {
   std::string text = "  ! " + finding.sentence;
   if (finding.probability < .995) {
-    text += Format(" (probability %.2f)", finding.probability);
+    text += finding.probability < .01
+                ? " (probability below .01)"
+                : Format(" (probability %.2f)", finding.probability);
   }
   return text + "\n      " + finding.evidence + "\n      " + finding.remedy +
          "\n";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "calib/numerics/median.h"
 #include "model/robot/axis_rotation.h"
@@ -12,28 +13,19 @@ namespace {
 
 using Eigen::VectorXd;
 
-bool IsOfVelocity(const InspectionFinding& finding) {
-  return finding.finding == "velocity";
+// Whether a joint's velocity is the slope of its position in these units.
+bool IsRightIn(const PositionUnits& units, const Joint& joint,
+               VelocityFit fit) {
+  fit.factor /= units.Of(joint);
+  return fit.right();
 }
 
-// Of which joints findings say so.
-std::vector<bool> WrongVelocities(
-    const Robot& robot, const std::vector<InspectionFinding>& findings) {
-  std::vector<bool> wrong(robot.num_joints(), false);
-  for (const InspectionFinding& f : findings) {
-    if (IsOfVelocity(f)) wrong[f.joint] = true;
-  }
-  return wrong;
-}
-
-// Of which joints velocities are not the slopes of positions in these units.
-std::vector<bool> WrongVelocities(const Robot& robot, Log log,
-                                  const StampFigures& stamps,
-                                  const PositionUnits& units) {
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    log.q.col(j) *= units.Of(robot.links[j].joint);
-  }
-  return WrongVelocities(robot, AuditChannels(robot, log, stamps));
+// Whether it says of a velocity what these units explain.
+bool FollowsFrom(const PositionUnits& units, const Robot& robot, const Log& log,
+                 const InspectionFinding& finding) {
+  if (finding.finding != "velocity") return false;
+  const auto fit = FitVelocity(log, finding.joint);
+  return fit && IsRightIn(units, robot.links[finding.joint].joint, *fit);
 }
 
 // What a hundredth of the values is beyond, in size.
@@ -55,14 +47,12 @@ double BeyondPositions(const Joint& joint, const VectorXd& q) {
 
 class Hints {
  public:
-  Hints(const Robot& robot, const Log& log, const StampFigures& stamps,
-        const std::vector<InspectionFinding>& findings,
-        const Eigen::MatrixXd& qd)
-      : robot_(robot),
-        log_(log),
-        stamps_(stamps),
-        wrong_as_logged_(WrongVelocities(robot, findings)),
-        qd_(qd) {}
+  Hints(const Robot& robot, const Log& log, const Eigen::MatrixXd& qd)
+      : robot_(robot), log_(log), qd_(qd) {
+    for (int j = 0; j < robot.num_joints(); ++j) {
+      velocity_.push_back(FitVelocity(log, j));
+    }
+  }
 
   PositionUnitHint Of(const PositionUnits& units) const {
     PositionUnitHint hint = OfLimits(units);
@@ -75,17 +65,27 @@ class Hints {
   bool Concerns(const PositionUnits& units, int j) const {
     return units.Of(robot_.links[j].joint) != 1;
   }
-  bool AnyConcerned(const PositionUnits& units,
-                    const std::vector<bool>& joints) const {
+  // All velocities that tell are right in these units, and one is not as
+  // logged.
+  bool VelocitiesTell(const PositionUnits& units) const {
+    bool any = false;
     for (int j = 0; j < robot_.num_joints(); ++j) {
-      if (joints[j] && Concerns(units, j)) return true;
+      if (!Concerns(units, j) || !velocity_[j]) continue;
+      if (!IsRightIn(units, robot_.links[j].joint, *velocity_[j])) return false;
+      any |= !velocity_[j]->right();
     }
-    return false;
+    return any;
   }
 
-  bool VelocitiesTell(const PositionUnits& units) const {
-    return AnyConcerned(units, wrong_as_logged_) &&
-           !AnyConcerned(units, WrongVelocities(robot_, log_, stamps_, units));
+  // A joint whose velocity is not its position's slope, while another's is:
+  // what is wrong with it is not of all joints.
+  bool IsAlone(const PositionUnits& units, int j) const {
+    if (!velocity_[j] || velocity_[j]->right()) return false;
+    for (int k = 0; k < robot_.num_joints(); ++k) {
+      if (Concerns(units, k) && velocity_[k] && velocity_[k]->right())
+        return true;
+    }
+    return false;
   }
 
   // A file's velocity limit may be a placeholder below the real one; where a
@@ -94,7 +94,7 @@ class Hints {
     PositionUnitHint hint;
     bool within = true;  // of all joints concerned, in that unit
     for (int j = 0; j < robot_.num_joints(); ++j) {
-      if (!Concerns(units, j)) continue;
+      if (!Concerns(units, j) || IsAlone(units, j)) continue;
       const Joint& joint = robot_.links[j].joint;
       const double unit = units.Of(joint), least = 1 / std::sqrt(unit);
       const double positions = BeyondPositions(joint, log_.q.col(j));
@@ -112,8 +112,7 @@ class Hints {
 
   const Robot& robot_;
   const Log& log_;
-  const StampFigures& stamps_;
-  const std::vector<bool> wrong_as_logged_;
+  std::vector<std::optional<VelocityFit>> velocity_;
   const Eigen::MatrixXd& qd_;
 };
 
@@ -124,23 +123,21 @@ double PositionUnits::Of(const Joint& joint) const {
   return millimetres ? 1e-3 : 1;
 }
 
-PositionUnitHints HintsOfPositionUnit(
-    const Robot& robot, const Log& log, const StampFigures& stamps,
-    const std::vector<InspectionFinding>& findings, const Eigen::MatrixXd& qd) {
-  const Hints hints(robot, log, stamps, findings, qd);
+PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
+                                      const Eigen::MatrixXd& qd) {
+  const Hints hints(robot, log, qd);
   return {hints.Of({true, false}), hints.Of({false, true})};
 }
 
 std::vector<bool> PutPositionUnitFirst(
-    const Robot& robot, const Log& log, const StampFigures& stamps,
-    const PositionUnits& units, std::vector<InspectionFinding>* findings) {
-  const std::vector<bool> wrong = WrongVelocities(robot, log, stamps, units);
+    const Robot& robot, const Log& log, const PositionUnits& units,
+    std::vector<InspectionFinding>* findings) {
   std::vector<bool> follows(robot.num_joints(), false);
   std::vector<InspectionFinding> first, others;
   for (const InspectionFinding& f : *findings) {
     if (f.finding == "position_unit") {
       first.push_back(f);
-    } else if (IsOfVelocity(f) && !wrong[f.joint]) {
+    } else if (FollowsFrom(units, robot, log, f)) {
       follows[f.joint] = true;
     } else {
       others.push_back(f);

@@ -33,19 +33,18 @@ struct PositionUnitHints {
 };
 
 // Recorded velocities that are the slopes of positions in that unit, of all
-// joints of the kind that are not as logged (`findings` of AuditChannels); or
+// joints of the kind that move, and are not as logged; or
 // positions, or their slopes (`qd`, samples x n, as logged), that are closer to
 // the robot file's limits in that unit: a hundredth of them is beyond these by
 // more than the root of the units' ratio. Single glitches go anywhere.
-PositionUnitHints HintsOfPositionUnit(
-    const Robot& robot, const Log& log, const StampFigures& stamps,
-    const std::vector<InspectionFinding>& findings, const Eigen::MatrixXd& qd);
+PositionUnitHints HintsOfPositionUnit(const Robot& robot, const Log& log,
+                                      const Eigen::MatrixXd& qd);
 
 // Of a log whose positions are in these units: puts that before all other
 // findings and takes out those that follow from it, velocities that are not the
 // slopes of positions as logged. Returns which joints' velocities these are.
 std::vector<bool> PutPositionUnitFirst(
-    const Robot& robot, const Log& log, const StampFigures& stamps,
-    const PositionUnits& units, std::vector<InspectionFinding>* findings);
+    const Robot& robot, const Log& log, const PositionUnits& units,
+    std::vector<InspectionFinding>* findings);
 
 }  // namespace armcal

@@ -66,7 +66,7 @@ class ChannelAudit {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const VectorXd slope = SlopeOf(log_, j);
       AddStuck(j, slope);
-      AddVelocity(j, slope);
+      AddVelocity(j);
       if (log_.tau.size() == 0) continue;
       AddStuckTorque(j, slope);
       AddLimit(j);
@@ -90,6 +90,14 @@ class ChannelAudit {
            Format("steps of %.4g as logged: no arm is sampled every %.4g s",
                   stamps_.step / stamps_.unit, stamps_.step / stamps_.unit),
            std::string("name the column t[") + name + "]"});
+    }
+    const double coarse = static_cast<double>(stamps_.duplicates) /
+                          static_cast<double>(log_.size());
+    if (coarse > kLostShare) {
+      findings_.push_back(
+          {"coarse_stamps", "many rows have the time of the row before",
+           Format("%.0f %% of the rows, which are dropped", 100 * coarse),
+           "log the time with more digits"});
     }
     if (stamps_.lost_share > kLostShare) {
       findings_.push_back(
@@ -206,23 +214,30 @@ class ChannelAudit {
          j});
   }
 
-  void AddVelocity(int j, const VectorXd& slope) {
-    if (log_.qd.size() == 0) return;
-    const double square = slope.squaredNorm();
-    const VectorXd qd = log_.qd.col(j);
-    if (square < log_.size() * kMoving * kMoving || qd.squaredNorm() == 0) {
+  void AddVelocity(int j) {
+    const auto fit = FitVelocity(log_, j);
+    if (!fit || fit->right()) return;
+    if (log_.qd.col(j).isZero(0)) {
+      findings_.push_back(
+          {"velocity", Name("velocity", j) + " is zero",
+           "0 in all samples, while its position changes",
+           "armcal differentiates positions; other tools should, too", j});
       return;
     }
-    const double factor = slope.dot(qd) / square;
-    const double alike = slope.dot(qd) / std::sqrt(square * qd.squaredNorm());
-    if (alike > .8 && factor > .7 && factor < 1.4) return;
     findings_.push_back(
         {"velocity", Name("velocity", j) + " is not that of its position",
-         Format("%.3g times the position's slope, correlation %.2f", factor,
-                alike),
-         alike < -.8 ? "turn the sign of one of them"
-                     : "check its unit and its order",
-         j});
+         Format("%.3g times the position's slope, correlation %.2f",
+                fit->factor, fit->alike),
+         RemedyOf(*fit), j});
+  }
+  static std::string RemedyOf(const VelocityFit& fit) {
+    const auto is_about = [&](double factor) {
+      return fit.alike > .8 && std::abs(fit.factor / factor - 1) < .05;
+    };
+    if (fit.alike < -.8) return "turn the sign of one of them";
+    if (is_about(180 / M_PI)) return "the velocity may be in deg/s";
+    if (is_about(M_PI / 180)) return "the position may be in degrees";
+    return "check its unit and its order";
   }
 
   void AddLimit(int j) {
@@ -308,6 +323,51 @@ StampFigures AuditStamps(const Log& log) {
   figures.mean_step *= figures.unit;
   figures.longest_gap *= figures.unit;
   return figures;
+}
+
+std::optional<VelocityFit> FitVelocity(const Log& log, int joint) {
+  if (log.qd.size() == 0) return {};
+  const VectorXd slope = SlopeOf(log, joint), qd = log.qd.col(joint);
+  const double square = slope.squaredNorm();
+  if (square < log.size() * kMoving * kMoving) return {};
+  const double both = std::sqrt(square * qd.squaredNorm());
+  return VelocityFit{slope.dot(qd) / square,
+                     both > 0 ? slope.dot(qd) / both : 0};
+}
+
+void SayOfAllVelocities(const Robot& robot, const Log& log,
+                        std::vector<InspectionFinding>* findings) {
+  constexpr double kOneFactor = 1.03;
+  std::vector<double> factors;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const auto fit = FitVelocity(log, j);
+    if (!fit) continue;
+    if (fit->right() || fit->alike < .9) return;
+    factors.push_back(fit->factor);
+  }
+  if (factors.size() < 2) return;
+  const auto [least, most] =
+      std::minmax_element(factors.begin(), factors.end());
+  if (*most > kOneFactor * *least) return;
+  const double factor = Median(factors);
+  const bool degrees = std::abs(factor * M_PI / 180 - 1) < .05;
+  const InspectionFinding finding = {
+      "velocity", "the velocities are not those of the positions",
+      Format("those of all joints that move are %.4g times the positions' "
+             "slopes",
+             factor),
+      degrees
+          ? "they may be in deg/s"
+          : Format("the log's time may be %.4g times too %s, or they are in "
+                   "another unit",
+                   factor > 1 ? factor : 1 / factor,
+                   factor > 1 ? "long" : "short")};
+  findings->erase(std::remove_if(findings->begin(), findings->end(),
+                                 [](const InspectionFinding& f) {
+                                   return f.finding == "velocity";
+                                 }),
+                  findings->end());
+  findings->insert(findings->begin(), finding);
 }
 
 std::vector<InspectionFinding> AuditChannels(const Robot& robot, const Log& log,

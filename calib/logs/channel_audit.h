@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "calib/logs/inspection_finding.h"
@@ -24,6 +24,21 @@ struct StampFigures {
   double unit = 1;
 };
 StampFigures AuditStamps(const Log& log);
+
+// A joint's recorded velocity beside the slope of its position.
+struct VelocityFit {
+  double factor = 0;  // times the slope
+  double alike = 0;   // correlation
+
+  bool right() const { return alike > .8 && factor > .7 && factor < 1.4; }
+};
+// Nothing of a joint that hardly moves, or without a velocity.
+std::optional<VelocityFit> FitVelocity(const Log& log, int joint);
+// Where the velocities of two joints and more, and of all that move, are wrong
+// by one factor, that is the time or the velocities' unit: one finding instead
+// of one per joint.
+void SayOfAllVelocities(const Robot& robot, const Log& log,
+                        std::vector<InspectionFinding>* findings);
 
 // Findings from single columns: time in another unit, lost samples, a column
 // that stands still while its joint moves, one at a limit, one of few values,

@@ -5,6 +5,7 @@
 #include "calib/inspect/inspection_report.h"
 #include "model/log_files/log_reader.h"
 #include "model/log_files/log_writer.h"
+#include "model/text/input_error.h"
 #include "tests/fixtures/inspected_arm.h"
 #include "tests/fixtures/temp_file.h"
 
@@ -37,6 +38,36 @@ TEST_F(InspectionTest, ACleanLogIsClean) {
   EXPECT_TRUE(coverage.known) << coverage.reason;
   EXPECT_EQ(coverage.rank, coverage.total);
   EXPECT_TRUE(coverage.findings.empty());
+}
+
+TEST_F(InspectionTest, ALogOfNoTimeIsRefused) {
+  Log log = arm_.log;
+  log.t.setConstant(1.7e9);
+  EXPECT_THROW(Inspect(log), InputError);
+}
+
+// A spike of 1 rad in one row used to be told as columns that are exchanged; it
+// is told as it is, and what is written has none.
+TEST_F(InspectionTest, ASpikeIsToldAndTakenOut) {
+  Log wrong = arm_.log;
+  wrong.q(500, 1) += 1;
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "position_spike");
+  EXPECT_EQ(inspection.findings[0].joint, 1);
+  const Log mended = Mended(arm_.robot, wrong, inspection);
+  EXPECT_NEAR(mended.q(500, 1), arm_.log.q(500, 1), .01);
+}
+
+// A wrong zero from one row on would be explained by any reading.
+TEST_F(InspectionTest, NothingIsAskedOfPositionsThatJump) {
+  Log wrong = arm_.log;
+  wrong.q.col(1).tail(900).array() += .4;
+  const LogInspection inspection = Inspect(wrong);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "position_jump");
+  EXPECT_EQ(inspection.residual_percent, 0);
+  EXPECT_NE(inspection.coverage.reason, "");
 }
 
 // A torque that has nothing to do with the motion, however columns are read.

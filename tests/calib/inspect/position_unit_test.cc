@@ -10,9 +10,7 @@ class PositionUnitTest : public testing::Test {
  protected:
   PositionUnitHints Hints(const Log& log) const {
     const Eigen::MatrixXd qd = Eigen::MatrixXd::Ones(9, robot_.num_joints());
-    const StampFigures stamps = AuditStamps(log);
-    return HintsOfPositionUnit(robot_, log, stamps,
-                               AuditChannels(robot_, log, stamps), qd);
+    return HintsOfPositionUnit(robot_, log, qd);
   }
 
   InspectedArm arm_;
@@ -32,6 +30,26 @@ TEST_F(PositionUnitTest, VelocitiesTell) {
   // One that is no slope in either unit.
   log_.qd.col(2) *= 3;
   EXPECT_EQ(Hints(log_).degrees.evidence, "");
+}
+
+// Positions that move too slowly in degrees to be judged are none: the velocity
+// of one joint has the wrong sign.
+TEST_F(PositionUnitTest, WhatIsNotJudgedInAUnitDoesNotTellIt) {
+  log_.q *= .2;
+  log_.qd *= .2;
+  log_.qd.col(2) *= -1;
+  EXPECT_EQ(Hints(log_).degrees.evidence, "");
+}
+
+// One of several joints, with a velocity that says so.
+TEST_F(PositionUnitTest, OneJointInDegreesIsNotAllJoints) {
+  Joint& joint = robot_.links[1].joint;
+  joint.lower = -1.6;
+  joint.upper = 1.6;
+  log_.q.col(1) *= 180 / M_PI;
+  EXPECT_EQ(Hints(log_).degrees.evidence, "");
+  log_.qd.resize(0, 0);
+  EXPECT_NE(Hints(log_).degrees.evidence, "");
 }
 
 // Between rad at the limit and degrees at it, in proportion: the root of 57.3.

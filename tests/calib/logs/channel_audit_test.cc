@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "tests/fixtures/inspected_arm.h"
@@ -54,6 +55,42 @@ TEST_F(ChannelAuditTest, TimeInOtherUnits) {
   const auto findings = AuditChannels(arm_.robot, arm_.log, AuditStamps(log));
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].finding, "time_unit");
+}
+
+TEST_F(ChannelAuditTest, StampsThatRepeatAreCoarse) {
+  for (double& t : arm_.log.t) t = std::floor(t / .05) * .05;
+  const auto findings =
+      AuditChannels(arm_.robot, arm_.log, AuditStamps(arm_.log));
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].finding, "coarse_stamps");
+  EXPECT_EQ(findings[0].evidence, "80 % of the rows, which are dropped");
+}
+
+TEST_F(ChannelAuditTest, AVelocityOfZeroIsNone) {
+  arm_.log.qd.col(1).setZero();
+  EXPECT_THAT(Names(), ElementsAre("velocity"));
+}
+
+// All by one factor are one finding, and what it may be; others stay.
+TEST_F(ChannelAuditTest, OneFactorOfAllVelocities) {
+  const auto said = [&](double first, double second) {
+    Log log = arm_.log;
+    log.qd.col(0) *= first;
+    log.qd.col(1) *= second;
+    auto findings = AuditChannels(arm_.robot, log, AuditStamps(log));
+    SayOfAllVelocities(arm_.robot, log, &findings);
+    return findings;
+  };
+  auto findings = said(2, 2);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].joint, -1);
+  EXPECT_NE(findings[0].remedy.find("times too long"), std::string::npos);
+  findings = said(180 / M_PI, 180 / M_PI);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].remedy, "they may be in deg/s");
+  EXPECT_EQ(said(2, 3).size(), 2u);
+  EXPECT_EQ(said(1, 2).size(), 1u);
+  EXPECT_EQ(said(1, 2)[0].joint, 1);
 }
 
 TEST_F(ChannelAuditTest, EveryThirdSampleIsLost) {

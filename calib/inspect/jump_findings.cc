@@ -1,0 +1,79 @@
+#include "calib/inspect/jump_findings.h"
+
+#include <string>
+
+#include "model/text/format.h"
+#include "model/text/option_name.h"
+
+namespace armcal {
+namespace {
+
+// "2 times, first at 3.21 s"
+std::string HowOften(size_t times, double first) {
+  return times == 1 ? Format("at %.4g s", first)
+                    : Format("%zu times, first at %.4g s", times, first);
+}
+
+std::string FixWrites(const char* what) {
+  return OptionName("fix") + " writes the log " + what;
+}
+
+InspectionFinding OfSpikes(const std::string& joint, int j,
+                           const Eigen::VectorXd& t,
+                           const std::vector<PositionJumps::Rows>& spikes) {
+  long rows = 0;
+  for (const auto& spike : spikes) rows += spike.end - spike.begin;
+  return {"position_spike", "the position of " + joint + " has wrong samples",
+          Format("%ld rows that it leaves its motion for, ", rows) +
+              HowOften(spikes.size(), t[spikes[0].begin]) +
+              Format(" by %.3g", spikes[0].size),
+          FixWrites("with these on the line between the rows around"), j};
+}
+
+InspectionFinding OfWraps(const std::string& joint, int j,
+                          const Eigen::VectorXd& t,
+                          const std::vector<PositionJumps::Step>& wraps) {
+  return {"position_wrap", "the position of " + joint + " wraps round",
+          "by a whole turn, " + HowOften(wraps.size(), t[wraps[0].row]),
+          FixWrites("with these turns taken out"), j};
+}
+
+InspectionFinding OfSteps(const std::string& joint, int j,
+                          const Eigen::VectorXd& t,
+                          const std::vector<PositionJumps::Step>& steps) {
+  return {"position_jump", "the position of " + joint + " jumps",
+          Format("by %.3g in one row, ", steps[0].size) +
+              HowOften(steps.size(), t[steps[0].row]),
+          "its zero is another one after that: cut the log there (" +
+              OptionName("crop") + ")",
+          j};
+}
+
+}  // namespace
+
+std::vector<InspectionFinding> JumpFindings(const Robot& robot,
+                                            const Eigen::VectorXd& t,
+                                            const LogJumps& jumps,
+                                            bool clock_is_wrong) {
+  std::vector<InspectionFinding> findings;
+  const std::vector<int>& missing = jumps.missing_time;
+  if (!missing.empty() && !clock_is_wrong) {
+    findings.push_back({"missing_time",
+                        "time is missing that the stamps do not show",
+                        "several joints jump in one row, " +
+                            HowOften(missing.size(), t[missing[0]]),
+                        "cut the log there (" + OptionName("crop") + ")"});
+  }
+  for (size_t k = 0; k < jumps.joints.size(); ++k) {
+    const int j = static_cast<int>(k);
+    const std::string& joint = robot.links[k].joint.name;
+    const PositionJumps& own = jumps.joints[k];
+    if (!own.spikes.empty())
+      findings.push_back(OfSpikes(joint, j, t, own.spikes));
+    if (!own.wraps.empty()) findings.push_back(OfWraps(joint, j, t, own.wraps));
+    if (!own.steps.empty()) findings.push_back(OfSteps(joint, j, t, own.steps));
+  }
+  return findings;
+}
+
+}  // namespace armcal

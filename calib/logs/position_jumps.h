@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/log_files/log.h"
+#include "model/robot/robot.h"
+
+namespace armcal {
+
+// Where one joint's recorded position leaves its motion: in one step it goes at
+// more than five times the speed that it has when it moves, and in the steps
+// around it does not. Other joints go on as before.
+struct PositionJumps {
+  struct Rows {
+    int begin = 0, end = 0;  // [begin, end)
+    double size = 0;         // of the first step, rad or m
+  };
+  struct Step {
+    int row = 0;      // the first one after it
+    double size = 0;  // rad or m
+  };
+  std::vector<Rows> spikes;  // which come back within a tenth of a second
+  std::vector<Step> wraps;   // by whole turns, of joints that turn
+  std::vector<Step> steps;   // by anything else, for good
+
+  bool mendable() const { return !spikes.empty() || !wraps.empty(); }
+};
+
+struct LogJumps {
+  std::vector<PositionJumps> joints;
+  // Rows at which one joint jumps and others that move are ahead of themselves,
+  // too: the log misses time there, or two logs meet, and no encoder is to
+  // blame.
+  std::vector<int> missing_time;
+};
+
+// Nothing of a joint of which one step in twenty is a jump: that is another
+// kind of log. The log has its time in s.
+LogJumps FindPositionJumps(const Robot& robot, const Log& log);
+
+// Takes the turns out again, and puts spikes on the line between the rows
+// around. Steps stay: which side has the right zero, nobody knows.
+void MendJumps(const std::vector<PositionJumps>& jumps, Log* log);
+
+}  // namespace armcal

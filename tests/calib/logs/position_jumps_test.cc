@@ -1,0 +1,113 @@
+#include "calib/logs/position_jumps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal::position_jumps_test {
+
+using Eigen::VectorXd;
+
+class PositionJumpsTest : public testing::Test {
+ protected:
+  PositionJumpsTest() : arm_("3R elbow") {}
+
+  LogJumps Jumps(const Log& log) const {
+    return FindPositionJumps(arm_.robot, log);
+  }
+  void ExpectNone(const Log& log) const {
+    const LogJumps jumps = Jumps(log);
+    EXPECT_TRUE(jumps.missing_time.empty());
+    for (const PositionJumps& of_joint : jumps.joints) {
+      EXPECT_FALSE(of_joint.mendable());
+      EXPECT_TRUE(of_joint.steps.empty());
+    }
+  }
+  // Half a second from 10 s on is cut out, and the stamps closed up.
+  Log WithoutHalfASecond() const {
+    Log log;
+    const Eigen::Index rows = arm_.log.size() - 50;
+    log.t = arm_.log.t.head(rows);
+    log.q.resize(rows, 3);
+    log.q << arm_.log.q.topRows(1000), arm_.log.q.bottomRows(rows - 1000);
+    return log;
+  }
+  // How far a joint's mended position is from that before it was spoilt.
+  double LeftAfterMending(const Log& spoilt, int j) const {
+    Log mended = spoilt;
+    MendJumps(Jumps(spoilt).joints, &mended);
+    return (mended.q.col(j) - arm_.log.q.col(j)).cwiseAbs().maxCoeff();
+  }
+
+  InspectedArm arm_;
+};
+
+TEST_F(PositionJumpsTest, MotionHasNone) {
+  ExpectNone(arm_.log);
+  Log rounded = arm_.log;  // to the resolution of a hobby servo
+  rounded.q = (rounded.q.array() / .0015).round() * .0015;
+  ExpectNone(rounded);
+  Log held = arm_.log;  // new in every eighth row
+  for (int k = 0; k < held.size(); ++k) held.q.row(k) = held.q.row(k - k % 8);
+  ExpectNone(held);
+  Log noisy = arm_.log;
+  std::mt19937_64 random(1);
+  AddNoise(&random, VectorXd::Constant(3, .01), &noisy.q);
+  ExpectNone(noisy);
+  Log hole = WithoutHalfASecond();  // that its stamps show
+  hole.t.tail(hole.size() - 1000).array() += .5;
+  ExpectNone(hole);
+}
+
+TEST_F(PositionJumpsTest, SpikesComeBack) {
+  Log log = arm_.log;
+  log.q(700, 1) += 1;
+  log.q.col(1).segment(900, 4).setZero();  // a lost connection
+  const LogJumps jumps = Jumps(log);
+  ASSERT_EQ(jumps.joints[1].spikes.size(), 2u);
+  EXPECT_EQ(jumps.joints[1].spikes[0].begin, 700);
+  EXPECT_EQ(jumps.joints[1].spikes[0].end, 701);
+  EXPECT_EQ(jumps.joints[1].spikes[1].begin, 900);
+  EXPECT_EQ(jumps.joints[1].spikes[1].end, 904);
+  EXPECT_TRUE(jumps.joints[1].steps.empty());
+  EXPECT_TRUE(jumps.missing_time.empty());
+  EXPECT_FALSE(jumps.joints[0].mendable());
+  // Of five steps of .01 s: a parabola's sagitta at 30 rad/s^2.
+  EXPECT_LT(LeftAfterMending(log, 1), 30 * .05 * .05 / 8);
+}
+
+TEST_F(PositionJumpsTest, AnEncoderThatWrapsIsUnwrapped) {
+  Log wraps = arm_.log;
+  for (double& q : wraps.q.col(0)) q = q > .1 ? q - 2 * M_PI : q;
+  const LogJumps jumps = Jumps(wraps);
+  EXPECT_FALSE(jumps.joints[0].wraps.empty());
+  EXPECT_TRUE(jumps.joints[0].steps.empty());
+  Log mended = wraps;
+  MendJumps(jumps.joints, &mended);
+  const VectorXd off = mended.q.col(0) - arm_.log.q.col(0);
+  EXPECT_LT((off.array() - off[0]).abs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(std::remainder(off[0], 2 * M_PI), 0, 1e-9);
+}
+
+TEST_F(PositionJumpsTest, AZeroThatIsLostStaysLost) {
+  Log log = arm_.log;
+  log.q.col(2).tail(800).array() += .3;
+  const LogJumps jumps = Jumps(log);
+  ASSERT_EQ(jumps.joints[2].steps.size(), 1u);
+  EXPECT_EQ(jumps.joints[2].steps[0].row, log.size() - 800);
+  EXPECT_NEAR(jumps.joints[2].steps[0].size, .3, .05);
+  EXPECT_NEAR(LeftAfterMending(log, 2), .3, 1e-9);
+}
+
+TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
+  const LogJumps jumps = Jumps(WithoutHalfASecond());
+  ASSERT_EQ(jumps.missing_time.size(), 1u);
+  EXPECT_EQ(jumps.missing_time[0], 1000);
+  for (const PositionJumps& of_joint : jumps.joints) {
+    EXPECT_FALSE(of_joint.mendable());
+  }
+}
+
+}  // namespace armcal::position_jumps_test
