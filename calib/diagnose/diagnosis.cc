@@ -369,6 +369,10 @@ void Diagnoser::Judge() {
   if (!result_.not_of_reference.empty()) {
     result_.data.push_back(OtherThanReference(result_.not_of_reference));
   }
+  for (DataFinding& spikes :
+       TellPositionSpikes(robot_, fit_->rows().segments())) {
+    result_.data.push_back(std::move(spikes));
+  }
   for (DataFinding& burst :
        TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_)) {
     result_.data.push_back(std::move(burst));

@@ -20,7 +20,7 @@ std::string FixWrites(const char* what) {
 
 InspectionFinding OfSpikes(const std::string& joint, int j,
                            const Eigen::VectorXd& t,
-                           const std::vector<PositionJumps::Rows>& spikes) {
+                           const std::vector<PositionSpike>& spikes) {
   long rows = 0;
   for (const auto& spike : spikes) rows += spike.end - spike.begin;
   return {"position_spike", "the position of " + joint + " has wrong samples",

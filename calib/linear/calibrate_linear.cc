@@ -205,6 +205,7 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   LinearCalibration result =
       CalibrateWithoutOutliers(robot, options, rows, &prepared, &samples);
   result.preparation = prepared.options();
+  result.position_spikes = prepared.position_spikes();
   result.friction = prepared.friction();
   ++result.passes;  // the audit
   if (!result.solved) return result;

@@ -32,6 +32,9 @@ struct LinearCalibration {
   bool solved = false;
   std::string reason;  // why it stopped, or why it refused
   int passes = 0;      // over the logs
+  // Per joint, samples of its position that were left out as spikes
+  // (position_spikes.h).
+  Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
   Eigen::VectorXd x;
   Eigen::VectorXd stddev;  // infinite where not identifiable
   Eigen::MatrixXd covariance;

@@ -239,6 +239,8 @@ json ToJson(const Robot& robot, const LogSet& training,
   json out = ToJson(robot, result);
   for (int i = 0; i < robot.num_joints(); ++i) {
     out["joints"][i]["spikes"] = CountOutliers(result, i);
+    out["joints"][i]["position_spikes"] =
+        i < result.position_spikes.size() ? result.position_spikes[i] : 0;
   }
   out["logs"] = LogsJson(training);
   out["torque"] = training.torque_source();

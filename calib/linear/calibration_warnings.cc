@@ -70,11 +70,25 @@ void WarnOfHeldOut(const Robot& robot, const LinearCalibration& result,
       "may say which");
 }
 
+void WarnOfSpikes(const Robot& robot, const LinearCalibration& result,
+                  std::vector<std::string>* sentences) {
+  for (int i = 0; i < result.position_spikes.size(); ++i) {
+    const long rows = result.position_spikes[i];
+    if (rows == 0) continue;
+    sentences->push_back(
+        robot.links[i].joint.name +
+        Format(": %ld wrong sample%s of its position %s left out, at which it "
+               "leaves its motion and comes back; armcal inspect says when",
+               rows, rows == 1 ? "" : "s", rows == 1 ? "was" : "were"));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> CalibrationWarnings(const Robot& robot,
                                              const LinearCalibration& result) {
   std::vector<std::string> sentences;
+  WarnOfSpikes(robot, result, &sentences);
   WarnOfTransitions(robot, result, &sentences);
   WarnOfHeldOut(robot, result, &sentences);
   return sentences;

@@ -5,24 +5,20 @@
 
 #include "model/log_files/log.h"
 #include "model/robot/robot.h"
+#include "model/signals/position_spikes.h"
 
 namespace armcal {
 
-// Where one joint's recorded position leaves its motion: in one step it goes at
-// more than five times the speed that it has when it moves, and in the steps
-// around it does not. Other joints go on as before.
+// Where one joint's recorded position leaves its motion (FindJumps) while the
+// others go on as before.
 struct PositionJumps {
-  struct Rows {
-    int begin = 0, end = 0;  // [begin, end)
-    double size = 0;         // of the first step, rad or m
-  };
   struct Step {
     int row = 0;      // the first one after it
     double size = 0;  // rad or m
   };
-  std::vector<Rows> spikes;  // which come back within a tenth of a second
-  std::vector<Step> wraps;   // by whole turns, of joints that turn
-  std::vector<Step> steps;   // by anything else, for good
+  std::vector<PositionSpike> spikes;
+  std::vector<Step> wraps;  // by whole turns, of joints that turn
+  std::vector<Step> steps;  // by anything else, for good
 
   bool mendable() const { return !spikes.empty() || !wraps.empty(); }
 };

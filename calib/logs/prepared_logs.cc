@@ -53,6 +53,7 @@ struct KeptTrajectories {
   PreparationOptions made_with;
   KeptItems<Stretch> stretches;
   long spikes = 0;
+  Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
 };
 
 PreparedLogs::PreparedLogs(const LogSet& logs,
@@ -78,6 +79,10 @@ PreparedLogs Prepare(const LogSet& logs, const PreparationOptions& options) {
 }
 
 long PreparedLogs::spikes() const { return kept_->spikes; }
+const Eigen::Array<long, 1, Eigen::Dynamic>& PreparedLogs::position_spikes()
+    const {
+  return kept_->position_spikes;
+}
 
 namespace {
 
@@ -129,8 +134,14 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
   RecordedLogs& recorded = *logs_.recorded_;
   const std::lock_guard<std::mutex> lock(recorded.pass);
   long spikes = 0;
+  Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
   const auto see = [&](Stretch* stretch) {
     spikes += stretch->trajectory.spikes.sum();
+    if (position_spikes.size() == 0) {
+      position_spikes = stretch->trajectory.position_spikes;
+    } else {
+      position_spikes += stretch->trajectory.position_spikes;
+    }
     VisitStretches(visit, stretch->log, &stretch->trajectory);
     if (progress) progress(stage, stretch->progress);
   };
@@ -150,6 +161,7 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
     kept.End();
   }
   kept_->spikes = spikes;
+  kept_->position_spikes = position_spikes;
   if (progress) progress(stage, 1);
 }
 

@@ -53,6 +53,9 @@ class PreparedLogs {
                          const Visit& visit) const;
   // Spikes of all joints that ForEach replaces; known after one.
   long spikes() const;
+  // Samples of each joint's position that are left out as spikes
+  // (position_spikes.h); known after one, empty of data as they are.
+  const Eigen::Array<long, 1, Eigen::Dynamic>& position_spikes() const;
 
  private:
   friend PreparedLogs Prepare(const LogSet& logs,

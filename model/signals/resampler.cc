@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/signals/position_spikes.h"
+
 namespace armcal {
 namespace {
 
@@ -46,6 +48,18 @@ void Resampler::Append(const Log& block, int row, int count) {
       columns_[at].insert(columns_[at].end(), x, x + count);
     }
   }
+}
+
+Eigen::Array<long, 1, Eigen::Dynamic> Resampler::RemovePositionSpikes() {
+  using Samples = Eigen::Map<Eigen::VectorXd>;
+  const auto count = static_cast<Eigen::Index>(times_.size());
+  const Samples t(times_.data(), count);
+  Eigen::Array<long, 1, Eigen::Dynamic> removed(widths_[0]);
+  for (int j = 0; j < widths_[0]; ++j) {
+    removed[j] =
+        armcal::RemovePositionSpikes(t, Samples(columns_[j].data(), count));
+  }
+  return removed;
 }
 
 long Resampler::NumGridPoints() const {

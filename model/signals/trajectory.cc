@@ -208,8 +208,9 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   const long begin = std::max(0L, core_begin - margin);
   const long end = std::min(available, core_end + margin);
   Log grid;
-  resampler.Sample(begin, end, &grid);
   Trajectory t;
+  if (bandwidth > 0) t.position_spikes = resampler.RemovePositionSpikes();
+  resampler.Sample(begin, end, &grid);
   t.t0 = grid.t[0];
   t.dt = base.dt;
   const bool raw = bandwidth <= 0;

@@ -44,6 +44,9 @@ struct Trajectory {
   // Per joint, samples of the core whose torque was a spike (spikes.h) and was
   // replaced; empty where spikes are not looked for.
   Eigen::Array<long, 1, Eigen::Dynamic> spikes;
+  // The same of recorded positions (position_spikes.h), where they were first
+  // met; empty where data are taken as they are.
+  Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
   TorqueSamples samples;  // of all rows, where every sample is asked for
   // Whether the torque of a row is one of a time about it, as it was low-passed
   // and thinned, and not of an instant.

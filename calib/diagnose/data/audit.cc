@@ -102,6 +102,26 @@ std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows) {
            "log the motors' currents or measured torque"}};
 }
 
+std::vector<DataFinding> TellPositionSpikes(
+    const Robot& robot, const std::vector<GapSegment>& segments) {
+  std::vector<DataFinding> findings;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    long rows = 0;
+    for (const GapSegment& segment : segments) {
+      if (segment.position_spikes.size() > j)
+        rows += segment.position_spikes[j];
+    }
+    if (rows == 0) continue;
+    findings.push_back(
+        {"the position of " + robot.links[j].joint.name + " has wrong samples",
+         Format("%ld, at which it leaves its motion and comes back, are left "
+                "out",
+                rows),
+         "armcal inspect says when"});
+  }
+  return findings;
+}
+
 DataFinding TooShortToHoldOut(const GapRows& rows) {
   double longest = 0;
   for (const GapSegment& segment : rows.segments()) {

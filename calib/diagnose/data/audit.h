@@ -24,6 +24,10 @@ struct DataFinding {
 // masses, hardly any acceleration.
 std::vector<DataFinding> AuditTorque(const Robot& robot, const GapRows& rows);
 
+// Of wrong samples of positions that were left out.
+std::vector<DataFinding> TellPositionSpikes(
+    const Robot& robot, const std::vector<GapSegment>& segments);
+
 // Of logs that have no rows in any fold (LogPart): how long a stretch of log
 // would have some.
 DataFinding TooShortToHoldOut(const GapRows& rows);

@@ -26,6 +26,10 @@ struct GapSegment {
   // interval to the value of sliding; samples x n, empty: nowhere.
   Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> breaks_away;
 
+  // Per joint, samples of its position that were left out as spikes
+  // (position_spikes.h); empty: none were looked for.
+  Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
+
   bool reconstructed_torque = false;  // of commands, by the law of the drives
   bool torque_drifts = false;         // torque_drift.h
   // A draw of the positions' noise and of what it makes of such torques,

@@ -40,6 +40,11 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
   AppendRows(trajectory.qd.middleRows(begin, rows), &motion.qd);
   AppendRows(trajectory.qdd.middleRows(begin, rows), &motion.qdd);
   AppendRows(trajectory.tau.middleRows(begin, rows), &segment->tau);
+  if (segment->position_spikes.size() == 0) {
+    segment->position_spikes = trajectory.position_spikes;
+  } else {
+    segment->position_spikes += trajectory.position_spikes;
+  }
   if (trajectory.temperature.size() == 0) return;
   AppendRows(trajectory.temperature.middleRows(begin, rows),
              &motion.temperature);

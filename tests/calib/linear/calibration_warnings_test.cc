@@ -90,4 +90,19 @@ TEST(HeldOut, IsNotOfTheSameRobot) {
   EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Validate(2)).empty());
 }
 
+// One wrong sample of a position costs nothing but a sentence.
+TEST(PositionSpikes, AreWarnedAbout) {
+  Arm arm(.02);
+  const LinearCalibration clean = arm.Calibrate();
+  arm.logs[0].q(2500, 1) += 1;
+  const LinearCalibration result = arm.Calibrate();
+  const auto warnings = CalibrationWarnings(arm.robot, result);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr(arm.robot.links[1].joint.name +
+                                     ": 1 wrong sample of its position was"));
+  EXPECT_LT(
+      (result.x - clean.x).cwiseQuotient(clean.stddev).cwiseAbs().maxCoeff(),
+      1);
+}
+
 }  // namespace armcal::calibration_warnings_test

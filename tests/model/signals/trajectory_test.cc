@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/signals/low_pass.h"
@@ -125,6 +126,26 @@ TEST(TrajectoryReader, ThinsOnlyFastLogs) {
   EXPECT_NEAR(step(.002, 4), .014, 1e-12);   // 7.8
   EXPECT_NEAR(step(.01, 4), .01, 1e-12);     // 1.6
   EXPECT_NEAR(step(.001, 0), .001, 1e-12);
+}
+
+// Stretches overlap; each wrong sample is left out of all and counted once.
+TEST(TrajectoryReader, WrongPositionsAreLeftOut) {
+  const int wrong[] = {1200, 30005, 61234, 61235};
+  const auto spoilt = [&](double t) {
+    const auto k = std::lround(t / .001);
+    return Position(t) + (std::count(wrong, wrong + 4, k) > 0 ? 1 : 0);
+  };
+  const auto clean = Cut(MakeLog(100, .001, Position).path, Bandwidth(5));
+  const auto mended = Cut(MakeLog(100, .001, spoilt).path, Bandwidth(5));
+  ASSERT_EQ(mended.size(), clean.size());
+  long removed = 0;
+  for (size_t k = 0; k < clean.size(); ++k) {
+    EXPECT_EQ(clean[k].position_spikes.sum(), 0);
+    removed += mended[k].position_spikes.sum();
+    EXPECT_LT((mended[k].q - clean[k].q).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_LT((mended[k].qdd - clean[k].qdd).cwiseAbs().maxCoeff(), 1e-2);
+  }
+  EXPECT_EQ(removed, 4);
 }
 
 }  // namespace armcal::trajectory_test

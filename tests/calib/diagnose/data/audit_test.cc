@@ -18,6 +18,23 @@ class GapAuditTest : public DiagnosedArm<32> {
   }
 };
 
+TEST_F(GapAuditTest, WrongSamplesOfPositionsAreTold) {
+  const auto tell = [&](const Log& log) {
+    LogReaderOptions reader;
+    reader.joint_names = File().JointNames();
+    LogSet logs({WriteFile(LogCsv(log), "spoilt.csv")}, reader, {});
+    return TellPositionSpikes(File(), ReadSegments(6, {}, logs));
+  };
+  Log log = plant_->Run(truth_);
+  EXPECT_TRUE(tell(log).empty());
+  log.q(log.size() / 2, 0) += 1;
+  const auto findings = tell(log);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_NE(findings[0].finding.find(File().links[0].joint.name),
+            std::string::npos);
+  EXPECT_EQ(findings[0].evidence.substr(0, 2), "1,");
+}
+
 TEST_F(GapAuditTest, MeasuredTorqueIsNoLawOfPosition) {
   EXPECT_TRUE(Audit(plant_->Run(truth_)).empty());
 }
