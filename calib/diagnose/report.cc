@@ -108,7 +108,10 @@ std::string Disagreement(const FoundEffect& found,
                     found.estimates[0].unit);
     if (&one != &found.joint_sizes.back()) sizes.back() += ",";
   }
-  std::string text = Wrapped("         its joints disagree:", sizes);
+  std::string text =
+      Wrapped(sizes.size() > 1 ? "         its joints disagree:"
+                               : "         one joint alone tells it:",
+              sizes);
   if (!found.effect->if_joints_disagree.empty()) {
     text += "         which may be " + found.effect->if_joints_disagree + "\n";
   }

@@ -16,6 +16,7 @@ namespace {
 
 // Three standard deviations of a normal variable, both sides.
 constexpr double kChance = .0027;
+constexpr double kMotionOfAJoint = .02;  // rad/s or m/s
 
 // The tail probability of chi squared with `freedom` degrees below that of
 // three standard deviations of a normal variable.
@@ -138,8 +139,10 @@ JointAgreement JointAgreementOn(const GapFit& fit, size_t k) {
   VectorXd wanted = VectorXd::Zero(size);
   for (int j = 0; j < static_cast<int>(told.size()); ++j) {
     const auto& [information, further] = told[j];
-    if (fit.screen().num_rows(j) == 0) continue;
+    const bool tells_none = fit.screen().num_rows(j) == 0;
+    if (tells_none && fit.scale().top_speed[j] < kMotionOfAJoint) continue;
     ++agreement.moving;
+    if (tells_none) continue;
     const VectorXd alone = x + further;
     agreement.seen_by += IsMoreThanChance(alone.dot(information * alone), size);
     const bool shows_there = information.trace() > 1e-6 * all_told;

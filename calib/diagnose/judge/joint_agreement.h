@@ -33,9 +33,11 @@ struct JointAgreement {
   double chi_squared = 0;
   double delta_chi2 = 0;
   int freedom = 0;
-  int moving = 0;   // joints with rows
+  // Joints that move, also those whose torque tells nothing: a joint that
+  // nothing drives cannot confirm what another one has by itself.
+  int moving = 0;
   int seen_by = 0;  // joints
-  // Of joints that move; empty where the effect has several parameters.
+  // Of joints that tell; empty where the effect has several parameters.
   std::vector<JointSize> joints = {};
 
   // Whether they differ by more than chance (three standard deviations), and by

@@ -40,6 +40,12 @@ struct Added {
   double variance = 0;  // of `since`
 };
 
+// Whether a law is Coulomb friction in another form. What others (of position,
+// load, speed) have on the average of a log says little of another motion.
+bool IsCoulomb(const Effect& law) {
+  return law.parameters[0].name == "coulomb" && !law.joint_term;
+}
+
 // A share is in proportion to its law's first parameter, which is the size of
 // each law that terms stand for. The reference's laws come first.
 Added AddedByLaws(const RefinedEffects& refined,
@@ -50,7 +56,8 @@ Added AddedByLaws(const RefinedEffects& refined,
   Eigen::Index parameter = 0;
   for (size_t k = 0; k < effects.size(); ++k) {
     const GapCandidate& found = effects[k].found;
-    const double share = found.joint == joint ? ShareOf(effects[k], term) : 0;
+    const bool adds = found.joint == joint && IsCoulomb(*found.effect);
+    const double share = adds ? ShareOf(effects[k], term) : 0;
     if (k < known) {
       added.before += share;
       continue;

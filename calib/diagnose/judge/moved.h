@@ -20,8 +20,8 @@ struct MovedParameter {
 // Those that the data move by more than two standard deviations of the prior
 // and of their own, the farthest first; x: the baseline's values. With a
 // reference: friction that is not what it was then, by more than two of its own
-// and half of what is usual from day to day. What laws of friction that were
-// found (`effects`, a CorrectedRobot's with their shares) add to it along
+// and half of what is usual from day to day. What laws of Coulomb friction that
+// were found (`effects`, a CorrectedRobot's with their shares) add to it along
 // the logs is a part of it: doubled friction that builds up over a way is
 // doubled friction.
 std::vector<MovedParameter> ListMoved(

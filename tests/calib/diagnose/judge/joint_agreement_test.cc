@@ -70,6 +70,30 @@ TEST(JointAgreementOn, JointsAgreeAboutALargeDelay) {
   EXPECT_LT(agreement.chi_squared, 5e-6 * agreement.delta_chi2);
 }
 
+// A joint that nothing drives moves, but cannot confirm what the other one has.
+TEST(JointAgreementOn, AJointWithoutTorqueConfirmsNothing) {
+  const EffectArm arm("2R planar (vertical plane)", 30, .005);
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
+  Eigen::MatrixXd tau = Delayed(
+      RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal(),
+      .02 / arm.motion.dt);
+  std::mt19937_64 random(2);
+  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
+  tau.col(1).setZero();
+  GapSegment segment = MakeSegment(arm.motion, tau);
+  segment.still.col(1).setConstant(true);
+  GapFitOptions options;
+  options.bandwidth_hz = 6;
+  GapFit fit(baseline, options, {segment}, {});
+  fit.Choose();
+  const std::vector<GapCandidate>& found = fit.refined().effects;
+  ASSERT_FALSE(found.empty());
+  ASSERT_EQ(found[0].effect->name, "delay");
+  const JointAgreement agreement = JointAgreementOn(fit, 0);
+  EXPECT_EQ(agreement.seen_by, 1);
+  EXPECT_TRUE(agreement.IsOfOneJoint());
+}
+
 // The torque of one of three joints is late by less than the others': each by
 // itself says what it is late by.
 TEST(JointAgreementOn, TellsWhatEachJointHas) {
