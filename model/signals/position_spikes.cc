@@ -21,9 +21,9 @@ constexpr double kAround = 5;  // times the smaller one of the steps around
 // Of the usual step, which is noise where a joint rests, and of the finest one,
 // which is the encoder's resolution.
 constexpr double kUsualSteps = 10;
-constexpr double kMostJumps = .05;  // of all steps
-constexpr double kLongest = .1;     // s, of a spike
-constexpr double kBack = .2;        // of its size, to which a spike comes back
+constexpr double kMostJumps = .05;    // of all steps
+constexpr double kLongestSpike = .1;  // s, of a spike
+constexpr double kBack = .2;  // of its size, to which a spike comes back
 // A second difference over the rms of all of them: of noise, however many
 // samples, it is below 6, of motion as well but for starts and stops; of a lone
 // spike in n samples it is sqrt(2 n / 3).
@@ -115,7 +115,7 @@ std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
     const int k = jumps[i];
     const double size = q[k + 1] - q[k];
     const auto is_near = [&](size_t other) {
-      return other < jumps.size() && t[jumps[other]] - t[k] <= kLongest;
+      return other < jumps.size() && t[jumps[other]] - t[k] <= kLongestSpike;
     };
     size_t back = i + 1;
     while (is_near(back) &&
