@@ -16,6 +16,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// Standard deviations of a change from log to log that is usual.
+constexpr double kUsual = 3;
+
 // The model's own columns are fitted alone, those of the discrepancy held at 0:
 // what a robot file can hold, as it is before anything is diagnosed.
 VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
@@ -255,9 +258,8 @@ void GapRegression::WeighBy(const VectorXd& stddev) {
 // by an effect and not absorbed. The others stay free. The answer is whether a
 // column is held now that was not, so that the regression has to be done anew.
 bool GapRegression::HoldDays() {
-  constexpr double kUsual = 3;  // standard deviations
   const std::vector<int> days = DayColumns(baseline_);
-  if (days.empty()) return false;
+  if (days.empty()) return HoldOffsets();
   if (!another_day_) {
     another_day_ =
         IsAnotherDay(baseline_, refit_, screen_->BaselineCovariance());
@@ -274,6 +276,26 @@ bool GapRegression::HoldDays() {
     const bool is_usual =
         std::abs(refit_[c]) < kUsual || changed_together_.count(c) > 0;
     if (*another_day_ && is_usual) continue;
+    any |= held_.insert(c).second;
+    data_->Hold(c);
+  }
+  return HoldOffsets() || any;
+}
+
+// An offset of a joint's torque is one number of all logs, and differs from log
+// to log. Where a reference's logs differ in it, they hardly tell it, and it
+// would follow the diagnosed log wherever that is. What is beyond kUsual
+// deviations of its prior is a change since the reference: held at 0 in the
+// diagnosed logs, to be explained by an effect.
+bool GapRegression::HoldOffsets() {
+  if (!reference_) return false;
+  bool any = false;
+  for (int c = 0; c < baseline_.num_model_columns(); ++c) {
+    const BaselineColumn& column = baseline_.columns()[c];
+    const bool is_offset =
+        column.kind == BaselineColumn::Kind::kTerm &&
+        static_cast<JointTerm>(column.index) == JointTerm::kOffset;
+    if (!is_offset || std::abs(refit_[c]) < kUsual) continue;
     any |= held_.insert(c).second;
     data_->Hold(c);
   }

@@ -87,6 +87,7 @@ class GapRegression {
                               const EvidenceNoise& noise) const;
   void MakeScreen();
   bool HoldDays();
+  bool HoldOffsets();
 
   const GapBaseline& baseline_;
   std::unique_ptr<GapData> data_;
