@@ -9,6 +9,7 @@
 #include "calib/inspect/reading_text.h"
 #include "calib/inspect/torque_unit.h"
 #include "calib/inspect/unsigned_torque.h"
+#include "calib/inspect/velocity_signs.h"
 #include "calib/logs/clock_text.h"
 #include "calib/logs/held_values.h"
 #include "calib/logs/velocity_delay.h"
@@ -188,11 +189,14 @@ class Inspector {
                                           OptionName("torque_constants");
       return;
     }
-    const ReadingFinding found =
+    ReadingFinding found =
         FindReading(robot_, series,
                     {Tells(), !result_.clock.wrong(),
                      HintsOfPositionUnit(robot_, log_, series.motion().qd)});
+    const std::vector<bool> opposite = OppositeVelocities(log_);
+    BelieveVelocities(opposite, &found);
     result_.reading = found.reading;
+    KeepRightVelocities(opposite);
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) {
@@ -206,6 +210,25 @@ class Inspector {
     result_.torque_scales = TorqueScale(robot, samples);
     const auto units = FindTorqueUnits(robot, samples, result_.torque_scales);
     result_.findings.insert(result_.findings.end(), units.begin(), units.end());
+  }
+
+  // The velocity of a position that is turned round is right, if it was
+  // opposite, and follows from that.
+  void KeepRightVelocities(const std::vector<bool>& opposite) {
+    const Wiring& wiring = result_.reading.wiring;
+    auto& all = result_.findings;
+    result_.velocity_sign_as_it_is.assign(opposite.size(), false);
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      const int from = wiring.position_column[j];
+      if (wiring.position_sign[j] > 0 || !opposite[from]) continue;
+      result_.velocity_sign_as_it_is[from] = true;
+      all.erase(std::remove_if(all.begin(), all.end(),
+                               [&](const InspectionFinding& f) {
+                                 return f.joint == from &&
+                                        f.finding == "velocity";
+                               }),
+                all.end());
+    }
   }
 
   // Which joints' torques have the values to tell a sign by.
@@ -318,7 +341,9 @@ Log Mended(const Robot& robot, const Log& recorded,
     const double of_velocity = as_it_is ? 1 : unit;
     mended.q.col(j) = sign * unit * log.q.col(from);
     if (log.qd.size() > 0) {
-      mended.qd.col(j) = sign * of_velocity * log.qd.col(from);
+      const bool is_right = !inspection.velocity_sign_as_it_is.empty() &&
+                            inspection.velocity_sign_as_it_is[from];
+      mended.qd.col(j) = (is_right ? 1 : sign) * of_velocity * log.qd.col(from);
     }
     if (log.qref.size() > 0) {
       mended.qref.col(j) = sign * unit * log.qref.col(from);

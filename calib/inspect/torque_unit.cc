@@ -176,6 +176,18 @@ std::vector<InspectionFinding> OfSome(const Robot& robot, WiringSamples samples,
   return findings;
 }
 
+// Whether a scale beyond the factor is that of all joints: of most that are
+// told, three at least, the others on the same side of 1. A joint that friction
+// moves may have any.
+bool IsOfAll(const std::vector<int>& beyond, const std::vector<int>& told,
+             const TorqueScales& scales, bool above) {
+  if (beyond.size() == told.size()) return true;
+  const bool is_of_most = beyond.size() >= 3 && 2 * beyond.size() > told.size();
+  return is_of_most && std::all_of(told.begin(), told.end(), [&](int j) {
+           return above ? scales.low[j] > 1 : scales.high[j] < 1;
+         });
+}
+
 }  // namespace
 
 std::vector<InspectionFinding> FindTorqueUnits(const Robot& robot,
@@ -191,8 +203,11 @@ std::vector<InspectionFinding> FindTorqueUnits(const Robot& robot,
   if (told.empty()) return {};
   // One of several joints could be heavier than the file has it.
   if (told.size() > 1 || robot.num_joints() == 1) {
-    if (above.size() == told.size()) return {OfAll(robot, scales, told, true)};
-    if (below.size() == told.size()) return {OfAll(robot, scales, told, false)};
+    for (const bool up : {true, false}) {
+      if (IsOfAll(up ? above : below, told, scales, up)) {
+        return {OfAll(robot, scales, told, up)};
+      }
+    }
   }
   above.insert(above.end(), below.begin(), below.end());
   if (above.empty()) return {};

@@ -59,6 +59,19 @@ TEST_F(InspectionTest, ASpikeIsToldAndTakenOut) {
   EXPECT_NEAR(mended.q(500, 1), arm_.log.q(500, 1), .01);
 }
 
+// Its velocity, which is right, says that it is the position, and stays.
+TEST_F(InspectionTest, AVelocityTellsWhoseSignIsWrong) {
+  Log wrong = arm_.log;
+  wrong.q.col(1) *= -1;
+  const LogInspection inspection = InspectLog(
+      arm_.robot, WriteFile(LogText(wrong), "velocity.csv"), options_);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].finding, "position_sign");
+  const Log mended = Mended(arm_.robot, wrong, inspection);
+  EXPECT_EQ(mended.q, arm_.log.q);
+  EXPECT_EQ(mended.qd, arm_.log.qd);
+}
+
 // A wrong zero from one row on would be explained by any reading.
 TEST_F(InspectionTest, NothingIsAskedOfPositionsThatJump) {
   Log wrong = arm_.log;

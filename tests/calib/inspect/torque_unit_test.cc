@@ -60,6 +60,22 @@ TEST(TorqueUnit, CurrentsAreTold) {
   EXPECT_EQ(findings[0].finding, "torque_is_current");
 }
 
+// One joint's links may be a few times as heavy as the file has them, too.
+TEST(TorqueUnit, CurrentsAreToldThoughOneJointHidesIt) {
+  InspectedArm arm;
+  const double constants[] = {15, 13, 11, 8, 2, 20};
+  for (int j = 0; j < 6; ++j) arm.log.tau.col(j) /= constants[j];
+  auto findings = Find(arm.robot, arm.log);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].finding, "torque_is_current");
+  EXPECT_EQ(findings[0].joint, -1);
+  // On the other side of 1 it is no current.
+  arm.log.tau.col(4) *= 4;
+  for (const InspectionFinding& finding : Find(arm.robot, arm.log)) {
+    EXPECT_GE(finding.joint, 0);
+  }
+}
+
 TEST(TorqueUnit, OfOneJointIsNamedWithItsJoint) {
   const InspectedArm arm;
   for (const int j : {1, 2}) {
