@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "model/text/enumeration.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -29,11 +30,7 @@ struct Named {
   }
   // " lacks payload, delay and backlash on elbow"
   std::string Lacked(const char* also) const {
-    std::string text = std::string(" ") + also + Lacks(least) + " " + names[0];
-    for (size_t k = 1; k < names.size(); ++k) {
-      text += (k + 1 < names.size() ? ", " : " and ") + names[k];
-    }
-    return text;
+    return std::string(" ") + also + Lacks(least) + " " + Enumeration(names);
   }
 };
 
@@ -96,13 +93,12 @@ std::string Findings(const GapDiagnosis& diagnosis) {
 
 // "one of payload, base tilt and encoder offset on elbow"
 std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  std::string text = "one of " + NameOf(*found.effect, found.joint, diagnosis);
+  std::vector<std::string> names = {
+      NameOf(*found.effect, found.joint, diagnosis)};
   for (const PlacedEffect& other : found.equivalent) {
-    const bool is_last = &other == &found.equivalent.back();
-    text += (is_last ? " and " : ", ") +
-            NameOf(*other.effect, other.joint, diagnosis);
+    names.push_back(NameOf(*other.effect, other.joint, diagnosis));
   }
-  return text;
+  return "one of " + Enumeration(names);
 }
 
 // What has several names, none of which is probable enough; empty where nothing

@@ -196,7 +196,7 @@ class Inspector {
     const std::vector<bool> opposite = OppositeVelocities(log_);
     BelieveVelocities(opposite, &found);
     result_.reading = found.reading;
-    KeepRightVelocities(opposite);
+    DropRightVelocities(opposite);
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) {
@@ -214,20 +214,16 @@ class Inspector {
 
   // The velocity of a position that is turned round is right, if it was
   // opposite, and follows from that.
-  void KeepRightVelocities(const std::vector<bool>& opposite) {
+  void DropRightVelocities(const std::vector<bool>& opposite) {
     const Wiring& wiring = result_.reading.wiring;
-    auto& all = result_.findings;
-    result_.velocity_sign_as_it_is.assign(opposite.size(), false);
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const int from = wiring.position_column[j];
       if (wiring.position_sign[j] > 0 || !opposite[from]) continue;
-      result_.velocity_sign_as_it_is[from] = true;
-      all.erase(std::remove_if(all.begin(), all.end(),
-                               [&](const InspectionFinding& f) {
-                                 return f.joint == from &&
-                                        f.finding == "velocity";
-                               }),
-                all.end());
+      DropFindings(
+          [from](const InspectionFinding& f) {
+            return f.joint == from && f.finding == "velocity";
+          },
+          &result_.findings);
     }
   }
 
@@ -300,14 +296,12 @@ class Inspector {
 
   // What has no sign had the wrong one in most samples, not in all.
   void DropSigns(int j) {
-    auto& all = result_.findings;
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [&](const InspectionFinding& f) {
-                               return f.joint == j &&
-                                      (f.finding == "torque_sign" ||
-                                       f.finding == "position_sign");
-                             }),
-              all.end());
+    DropFindings(
+        [j](const InspectionFinding& f) {
+          return f.joint == j &&
+                 (f.finding == "torque_sign" || f.finding == "position_sign");
+        },
+        &result_.findings);
     result_.reading.wiring.torque_sign[j] = 1;
     result_.reading.wiring.position_sign[j] = 1;
   }
@@ -328,9 +322,10 @@ Log Mended(const Robot& robot, const Log& recorded,
            const LogInspection& inspection) {
   Log log = recorded;
   MendJumps(inspection.jumps.joints, &log);
+  log.t = inspection.rebuilds_time ? inspection.clock.t
+                                   : (inspection.stamps.unit * log.t).eval();
+  const std::vector<bool> opposite = OppositeVelocities(log);
   Log mended = log;
-  mended.t = inspection.rebuilds_time ? inspection.clock.t
-                                      : inspection.stamps.unit * log.t;
   const LogReading& reading = inspection.reading;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.position_column[j];
@@ -341,9 +336,9 @@ Log Mended(const Robot& robot, const Log& recorded,
     const double of_velocity = as_it_is ? 1 : unit;
     mended.q.col(j) = sign * unit * log.q.col(from);
     if (log.qd.size() > 0) {
-      const bool is_right = !inspection.velocity_sign_as_it_is.empty() &&
-                            inspection.velocity_sign_as_it_is[from];
-      mended.qd.col(j) = (is_right ? 1 : sign) * of_velocity * log.qd.col(from);
+      // One that is opposite to a position with the wrong sign is right.
+      const double of_sign = opposite[from] ? 1 : sign;
+      mended.qd.col(j) = of_sign * of_velocity * log.qd.col(from);
     }
     if (log.qref.size() > 0) {
       mended.qref.col(j) = sign * unit * log.qref.col(from);

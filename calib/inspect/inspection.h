@@ -43,8 +43,6 @@ struct LogInspection {
   LogReading reading;
   // Per joint, where positions are in other units: its velocity is not.
   std::vector<bool> velocity_as_it_is;
-  // Per column, where the position's sign is turned: its velocity's is right.
-  std::vector<bool> velocity_sign_as_it_is;
   LogCoverage coverage;  // CoverageOf, where asked for
   LogDrawing drawing;    // where bins are asked for
 

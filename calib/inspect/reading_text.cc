@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model/robot/axis_rotation.h"
+#include "model/text/enumeration.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
 
@@ -47,12 +48,11 @@ std::string FindingWord(Kind kind) {
 }
 
 std::string JointNames(const ReadingChange& change, const Robot& robot) {
-  std::string names;
+  std::vector<std::string> names;
   for (const int j : JointsOf(change)) {
-    if (!names.empty()) names += " and ";
-    names += robot.links[j].joint.name;
+    names.push_back(robot.links[j].joint.name);
   }
-  return names;
+  return Enumeration(names);
 }
 
 std::string Phrase(const ReadingChange& change, const Robot& robot) {

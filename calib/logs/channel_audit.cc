@@ -362,11 +362,9 @@ void SayOfAllVelocities(const Robot& robot, const Log& log,
                    "another unit",
                    factor > 1 ? factor : 1 / factor,
                    factor > 1 ? "long" : "short")};
-  findings->erase(std::remove_if(findings->begin(), findings->end(),
-                                 [](const InspectionFinding& f) {
-                                   return f.finding == "velocity";
-                                 }),
-                  findings->end());
+  DropFindings(
+      [](const InspectionFinding& f) { return f.finding == "velocity"; },
+      findings);
   findings->insert(findings->begin(), finding);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,5 +21,13 @@ struct InspectionFinding {
   // What may be wrong instead: `finding` and `joint`.
   std::vector<std::pair<std::string, int>> alternatives{};
 };
+
+// Those of which `is_out` is true are taken out.
+template <class IsOut>
+void DropFindings(const IsOut& is_out,
+                  std::vector<InspectionFinding>* findings) {
+  findings->erase(std::remove_if(findings->begin(), findings->end(), is_out),
+                  findings->end());
+}
 
 }  // namespace armcal

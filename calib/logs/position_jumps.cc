@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "calib/numerics/median.h"
 #include "model/robot/axis_rotation.h"
 
 namespace armcal {
@@ -50,20 +49,11 @@ bool IsAnyOtherAhead(const Log& log, int j, int k, double usual_interval) {
   return false;
 }
 
-double UsualInterval(const VectorXd& t) {
-  std::vector<double> intervals;
-  for (Eigen::Index k = 0; k + 1 < t.size(); ++k) {
-    intervals.push_back(t[k + 1] - t[k]);
-  }
-  return Median(intervals);
-}
-
 }  // namespace
 
 LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
   LogJumps found;
   const VectorXd t = log.t;
-  const double interval = UsualInterval(t);
   std::set<int> missing;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const VectorXd q = log.q.col(j);
@@ -72,10 +62,10 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
     PositionSteps steps = FindJumps(t, q);
     std::vector<int> others;
     for (const int k : steps.jumps) {
-      const double size = q[k + 1] - q[k];
-      if (turns && WholeTurns(size) != 0) {
+      const double size = turns ? WholeTurns(q[k + 1] - q[k]) : 0;
+      if (size != 0) {
         of_joint.wraps.push_back({k + 1, size});
-      } else if (IsAnyOtherAhead(log, j, k, interval)) {
+      } else if (IsAnyOtherAhead(log, j, k, steps.usual_interval)) {
         missing.insert(k + 1);
       } else {
         others.push_back(k);
@@ -97,7 +87,7 @@ void MendJumps(const std::vector<PositionJumps>& jumps, Log* log) {
     auto q = log->q.col(static_cast<Eigen::Index>(j));
     for (const PositionSpike& spike : jumps[j].spikes) Bridge(spike, log->t, q);
     for (const PositionJumps::Step& wrap : jumps[j].wraps) {
-      q.tail(q.size() - wrap.row).array() -= WholeTurns(wrap.size);
+      q.tail(q.size() - wrap.row).array() -= wrap.size;
     }
   }
 }

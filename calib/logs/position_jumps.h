@@ -19,8 +19,6 @@ struct PositionJumps {
   std::vector<PositionSpike> spikes;
   std::vector<Step> wraps;  // by whole turns, of joints that turn
   std::vector<Step> steps;  // by anything else, for good
-
-  bool mendable() const { return !spikes.empty() || !wraps.empty(); }
 };
 
 struct LogJumps {
@@ -31,8 +29,7 @@ struct LogJumps {
   std::vector<int> missing_time;
 };
 
-// Nothing of a joint of which one step in twenty is a jump: that is another
-// kind of log. The log has its time in s.
+// The log has its time in s.
 LogJumps FindPositionJumps(const Robot& robot, const Log& log);
 
 // Takes the turns out again, and puts spikes on the line between the rows

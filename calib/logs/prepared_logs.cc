@@ -8,6 +8,7 @@
 
 #include "calib/logs/friction_bandwidth.h"
 #include "calib/logs/recorded_logs.h"
+#include "model/signals/position_spikes.h"
 
 namespace armcal {
 namespace {
@@ -137,11 +138,7 @@ void PreparedLogs::ForEach(const std::string& stage, const Progress& progress,
   Eigen::Array<long, 1, Eigen::Dynamic> position_spikes;
   const auto see = [&](Stretch* stretch) {
     spikes += stretch->trajectory.spikes.sum();
-    if (position_spikes.size() == 0) {
-      position_spikes = stretch->trajectory.position_spikes;
-    } else {
-      position_spikes += stretch->trajectory.position_spikes;
-    }
+    AddCounts(stretch->trajectory.position_spikes, &position_spikes);
     VisitStretches(visit, stretch->log, &stretch->trajectory);
     if (progress) progress(stage, stretch->progress);
   };

@@ -85,7 +85,8 @@ PositionSteps FindJumps(const VectorXd& t, const VectorXd& q) {
   found.usual_speed = UsualSpeed(t, q);
   const VectorXd step = StepsOf(q), interval = StepsOf(t);
   const double least = LeastJump(step);
-  const double usual = QuantileOf({interval.begin(), interval.end()}, .5);
+  const double usual = found.usual_interval =
+      QuantileOf({interval.begin(), interval.end()}, .5);
   double since = t[0];
   for (Index k = 0; k < count; ++k) {
     const double size = std::abs(step[k]);
@@ -156,6 +157,10 @@ long RemovePositionSpikes(const Eigen::Ref<const VectorXd>& t,
     rows += spike.end - spike.begin;
   }
   return rows;
+}
+
+void AddCounts(const SpikeCounts& more, SpikeCounts* all) {
+  *all = all->size() == 0 ? more : SpikeCounts(*all + more);
 }
 
 }  // namespace armcal

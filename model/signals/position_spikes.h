@@ -12,7 +12,8 @@ namespace armcal {
 // be one: that is another kind of log.
 struct PositionSteps {
   std::vector<int> jumps;
-  double usual_speed = 0;  // below which nine tenths of the motion are
+  double usual_speed = 0;     // below which nine tenths of the motion are
+  double usual_interval = 0;  // s, between rows
 };
 PositionSteps FindJumps(const Eigen::VectorXd& t, const Eigen::VectorXd& q);
 
@@ -35,5 +36,9 @@ void Bridge(const PositionSpike& spike, const Eigen::VectorXd& t,
 // differences spares what has none the rest.
 long RemovePositionSpikes(const Eigen::Ref<const Eigen::VectorXd>& t,
                           Eigen::Ref<Eigen::VectorXd> q);
+
+// How many samples were left out, per joint; empty: none were looked for.
+using SpikeCounts = Eigen::Array<long, 1, Eigen::Dynamic>;
+void AddCounts(const SpikeCounts& more, SpikeCounts* all);
 
 }  // namespace armcal

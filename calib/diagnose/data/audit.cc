@@ -8,6 +8,7 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/dynamics/link_regressor.h"
+#include "model/text/enumeration.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
 
@@ -137,13 +138,9 @@ DataFinding TooShortToHoldOut(const GapRows& rows) {
 }
 
 DataFinding OtherThanReference(const std::vector<const Effect*>& terms) {
-  std::string text;
-  for (size_t k = 0; k < terms.size(); ++k) {
-    text += (k == 0                 ? ""
-             : k + 1 < terms.size() ? ", "
-                                    : " and ") +
-            terms[k]->name;
-  }
+  std::vector<std::string> names;
+  for (const Effect* term : terms) names.push_back(term->name);
+  std::string text = Enumeration(names);
   std::replace(text.begin(), text.end(), '_', ' ');
   const bool one = terms.size() == 1;
   return {

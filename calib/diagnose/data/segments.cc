@@ -11,6 +11,7 @@
 #include "calib/logs/position_noise.h"
 #include "calib/numerics/append_rows.h"
 #include "model/signals/low_pass.h"
+#include "model/signals/position_spikes.h"
 #include "model/signals/standstill.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -40,11 +41,7 @@ void AppendCore(const Trajectory& trajectory, GapSegment* segment) {
   AppendRows(trajectory.qd.middleRows(begin, rows), &motion.qd);
   AppendRows(trajectory.qdd.middleRows(begin, rows), &motion.qdd);
   AppendRows(trajectory.tau.middleRows(begin, rows), &segment->tau);
-  if (segment->position_spikes.size() == 0) {
-    segment->position_spikes = trajectory.position_spikes;
-  } else {
-    segment->position_spikes += trajectory.position_spikes;
-  }
+  AddCounts(trajectory.position_spikes, &segment->position_spikes);
   if (trajectory.temperature.size() == 0) return;
   AppendRows(trajectory.temperature.middleRows(begin, rows),
              &motion.temperature);

@@ -200,7 +200,8 @@ void GapRegression::Refit() {
   MakeScreen();
   SettleEvidence({});
   refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
-  if (HoldDays()) Refit();
+  const bool days = HoldDays(), offsets = HoldOffsets();
+  if (days || offsets) Refit();
 }
 
 // The standard deviations of what models lack as a rule are those of an average
@@ -259,7 +260,7 @@ void GapRegression::WeighBy(const VectorXd& stddev) {
 // column is held now that was not, so that the regression has to be done anew.
 bool GapRegression::HoldDays() {
   const std::vector<int> days = DayColumns(baseline_);
-  if (days.empty()) return HoldOffsets();
+  if (days.empty()) return false;
   if (!another_day_) {
     another_day_ =
         IsAnotherDay(baseline_, refit_, screen_->BaselineCovariance());
@@ -279,7 +280,7 @@ bool GapRegression::HoldDays() {
     any |= held_.insert(c).second;
     data_->Hold(c);
   }
-  return HoldOffsets() || any;
+  return any;
 }
 
 // An offset of a joint's torque is one number of all logs, and differs from log

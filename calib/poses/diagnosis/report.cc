@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/poses/diagnosis/interval.h"
+#include "model/text/enumeration.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -202,14 +203,9 @@ std::string PoseSentence(const PoseDiagnosis& diagnosis) {
   }
   const PoseGap& gap = diagnosis.gap;
   const std::string left = InMillimetres(gap.held_out_after);
-  std::string names;
-  const size_t count = diagnosis.findings.size();
-  for (size_t k = 0; k < count; ++k) {
-    names += (k == 0           ? ""
-              : k + 1 == count ? " and "
-                               : ", ") +
-             diagnosis.findings[k].name;
-  }
+  std::vector<std::string> found;
+  for (const auto& finding : diagnosis.findings) found.push_back(finding.name);
+  const std::string names = Enumeration(found);
   switch (diagnosis.verdict) {
     case PoseVerdict::kNoiseFloor:
       return "The poses show no effect beyond the geometry, which leaves " +

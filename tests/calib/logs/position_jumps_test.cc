@@ -17,11 +17,15 @@ class PositionJumpsTest : public testing::Test {
   LogJumps Jumps(const Log& log) const {
     return FindPositionJumps(arm_.robot, log);
   }
+  static void ExpectNothingToMend(const PositionJumps& jumps) {
+    EXPECT_TRUE(jumps.spikes.empty());
+    EXPECT_TRUE(jumps.wraps.empty());
+  }
   void ExpectNone(const Log& log) const {
     const LogJumps jumps = Jumps(log);
     EXPECT_TRUE(jumps.missing_time.empty());
     for (const PositionJumps& of_joint : jumps.joints) {
-      EXPECT_FALSE(of_joint.mendable());
+      ExpectNothingToMend(of_joint);
       EXPECT_TRUE(of_joint.steps.empty());
     }
   }
@@ -73,7 +77,7 @@ TEST_F(PositionJumpsTest, SpikesComeBack) {
   EXPECT_EQ(jumps.joints[1].spikes[1].end, 904);
   EXPECT_TRUE(jumps.joints[1].steps.empty());
   EXPECT_TRUE(jumps.missing_time.empty());
-  EXPECT_FALSE(jumps.joints[0].mendable());
+  ExpectNothingToMend(jumps.joints[0]);
   // Of five steps of .01 s: a parabola's sagitta at 30 rad/s^2.
   EXPECT_LT(LeftAfterMending(log, 1), 30 * .05 * .05 / 8);
 }
@@ -106,7 +110,7 @@ TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
   ASSERT_EQ(jumps.missing_time.size(), 1u);
   EXPECT_EQ(jumps.missing_time[0], 1000);
   for (const PositionJumps& of_joint : jumps.joints) {
-    EXPECT_FALSE(of_joint.mendable());
+    ExpectNothingToMend(of_joint);
   }
 }
 

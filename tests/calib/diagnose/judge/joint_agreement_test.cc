@@ -46,25 +46,44 @@ TEST_F(JointAgreementOnTest, ADelayIsSeenGivenTheBaselinesOwn) {
   ExpectEstimate(diagnosis.effects[0], "delay", .006, .1);
 }
 
+// Of two joints, with noise, that many s too late.
+struct DelayedArm {
+  explicit DelayedArm(double delay)
+      : arm("2R planar (vertical plane)", 30, .005),
+        baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10)),
+        tau(Delayed(
+            RecordedTorque(arm.robot, baseline.transitions(), arm.motion)
+                .nominal(),
+            delay / arm.motion.dt)) {
+    std::mt19937_64 random(2);
+    AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
+  }
+  EffectArm arm;
+  GapBaseline baseline;
+  Eigen::MatrixXd tau;
+};
+
+// Of the delay that a fit to a segment chooses first.
+JointAgreement AgreementOnDelay(const GapBaseline& baseline,
+                                const GapSegment& segment) {
+  GapFitOptions options;
+  options.bandwidth_hz = 6;
+  GapFit fit(baseline, options, {segment}, {});
+  fit.Choose();
+  const std::vector<GapCandidate>& found = fit.refined().effects;
+  if (found.empty() || found[0].effect->name != "delay") {
+    ADD_FAILURE() << "no delay";
+    return {};
+  }
+  return JointAgreementOn(fit, 0);
+}
+
 // A column is a small delay's; what a large one differs from it by is no
 // disagreement of joints.
 TEST(JointAgreementOn, JointsAgreeAboutALargeDelay) {
-  constexpr double kDelay = .05;  // s
-  const EffectArm arm("2R planar (vertical plane)", 30, .005);
-  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
-  Eigen::MatrixXd tau = Delayed(
-      RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal(),
-      kDelay / arm.motion.dt);
-  std::mt19937_64 random(2);
-  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
-  GapFitOptions options;
-  options.bandwidth_hz = 6;
-  GapFit fit(baseline, options, {MakeSegment(arm.motion, tau)}, {});
-  fit.Choose();
-  const std::vector<GapCandidate>& found = fit.refined().effects;
-  ASSERT_FALSE(found.empty());
-  ASSERT_EQ(found[0].effect->name, "delay");
-  const JointAgreement agreement = JointAgreementOn(fit, 0);
+  const DelayedArm late(.05);
+  const JointAgreement agreement =
+      AgreementOnDelay(late.baseline, MakeSegment(late.arm.motion, late.tau));
   EXPECT_EQ(agreement.seen_by, 2);
   // 2.6e-5 by what columns leave instead of what the delay does.
   EXPECT_LT(agreement.chi_squared, 5e-6 * agreement.delta_chi2);
@@ -72,24 +91,11 @@ TEST(JointAgreementOn, JointsAgreeAboutALargeDelay) {
 
 // A joint that nothing drives moves, but cannot confirm what the other one has.
 TEST(JointAgreementOn, AJointWithoutTorqueConfirmsNothing) {
-  const EffectArm arm("2R planar (vertical plane)", 30, .005);
-  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
-  Eigen::MatrixXd tau = Delayed(
-      RecordedTorque(arm.robot, baseline.transitions(), arm.motion).nominal(),
-      .02 / arm.motion.dt);
-  std::mt19937_64 random(2);
-  AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &tau);
-  tau.col(1).setZero();
-  GapSegment segment = MakeSegment(arm.motion, tau);
+  DelayedArm late(.02);
+  late.tau.col(1).setZero();
+  GapSegment segment = MakeSegment(late.arm.motion, late.tau);
   segment.still.col(1).setConstant(true);
-  GapFitOptions options;
-  options.bandwidth_hz = 6;
-  GapFit fit(baseline, options, {segment}, {});
-  fit.Choose();
-  const std::vector<GapCandidate>& found = fit.refined().effects;
-  ASSERT_FALSE(found.empty());
-  ASSERT_EQ(found[0].effect->name, "delay");
-  const JointAgreement agreement = JointAgreementOn(fit, 0);
+  const JointAgreement agreement = AgreementOnDelay(late.baseline, segment);
   EXPECT_EQ(agreement.seen_by, 1);
   EXPECT_TRUE(agreement.IsOfOneJoint());
 }
