@@ -289,7 +289,7 @@ std::string ReferenceShows(const GapDiagnosis& diagnosis) {
 std::string MovedTitle(const GapDiagnosis& diagnosis) {
   const std::string before = SinceWhat(diagnosis);
   return before.empty() ? "\nparameters far from the file's\n"
-                        : "\nfriction that has changed since " + before + "\n";
+                        : "\nwhat has changed since " + before + "\n";
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ std::string Findings(const GapDiagnosis& diagnosis) {
   std::string touched;
   Named terms, effects;
   for (const FoundEffect& found : diagnosis.effects) {
-    // FrictionChanged() and the data's findings say so.
+    // ChangedTogether() and the data's findings say so.
     if (found.of_another_day || found.of_the_stamps) continue;
     const size_t times = found.contacts.size();
     if (times > 0) {
@@ -116,21 +116,43 @@ std::string NamesAlike(const GapDiagnosis& diagnosis) {
          ": these data cannot tell which.";
 }
 
-// Friction that differs on several joints is one change, as temperature makes
-// it: "Friction has changed since the reference: elbow.viscous -20 %." Empty
-// where none has.
-std::string FrictionChanged(const GapDiagnosis& diagnosis) {
+bool IsMovedZero(const MovedParameter& moved) {
+  return moved.term == JointTerm::kOffset;
+}
+
+bool AnyZeroMoved(const GapDiagnosis& diagnosis) {
+  return !SinceWhat(diagnosis).empty() &&
+         std::any_of(diagnosis.moved.begin(), diagnosis.moved.end(),
+                     IsMovedZero);
+}
+
+// "elbow.viscous -20 %"; a zero has no size of which that could be a share.
+std::string Change(const MovedParameter& moved, bool is_zero) {
+  const double change = moved.value - moved.nominal;
+  return moved.name + (is_zero || moved.nominal == 0
+                           ? Format(" %+.2g %s", change, moved.unit.c_str())
+                           : Format(" %+.0f %%", 100 * change / moved.nominal));
+}
+
+// What differs on several joints is one change, as temperature makes it of
+// friction and time of torques' zeros: "Friction has changed since the
+// reference: elbow.viscous -20 %. " Empty where nothing has.
+std::string ChangedTogether(const GapDiagnosis& diagnosis) {
   const std::string before = SinceWhat(diagnosis);
-  if (before.empty() || diagnosis.moved.empty()) return "";
-  std::string text = "Friction has changed since " + before + ": ";
-  for (size_t k = 0; k < diagnosis.moved.size(); ++k) {
-    const MovedParameter& moved = diagnosis.moved[k];
-    text += (k > 0 ? ", " : "") + moved.name;
-    text += moved.nominal != 0
-                ? Format(" %+.0f %%", 100 * (moved.value / moved.nominal - 1))
-                : Format(" %+.3g %s", moved.value, moved.unit.c_str());
+  if (before.empty()) return "";
+  std::string text;
+  for (const bool zeros : {false, true}) {
+    std::string list;
+    for (const MovedParameter& moved : diagnosis.moved) {
+      if (IsMovedZero(moved) != zeros) continue;
+      list += (list.empty() ? "" : ", ") + Change(moved, zeros);
+    }
+    if (list.empty()) continue;
+    text += (zeros ? "Torques' zeros have moved since " + before
+                   : "Friction has changed since " + before) +
+            ": " + list + ". ";
   }
-  return text + ".";
+  return text;
 }
 
 double NoiseShare(const JointGap& joint) {
@@ -192,7 +214,7 @@ std::string OfNoise(double mean_square) {
   return Format("%.2g times the noise's mean square", mean_square);
 }
 
-// What is left given friction that has changed.
+// What is left given what has changed together.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   constexpr double kNoisy = 2;  // times the noise's mean square
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
@@ -213,7 +235,9 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
     case GapVerdict::kNoiseFloor:
       return Agreement(diagnosis);
     case GapVerdict::kAbsorbed:
-      return diagnosis.has_reference
+      return AnyZeroMoved(diagnosis)
+                 ? "Nothing but these, friction and timing has changed."
+             : diagnosis.has_reference
                  ? "Nothing but friction and timing has changed since the "
                    "reference."
                  : "Nothing is missing in the model but better values: "
@@ -255,9 +279,7 @@ std::string BriefReport(const GapDiagnosis& diagnosis) {
   for (const DataFinding& finding : diagnosis.data) {
     if (finding.leads) text += "First: " + finding.finding + ". ";
   }
-  const std::string changed = FrictionChanged(diagnosis);
-  if (!changed.empty()) text += changed + " ";
-  return text + BriefVerdict(diagnosis);
+  return text + ChangedTogether(diagnosis) + BriefVerdict(diagnosis);
 }
 
 }  // namespace armcal

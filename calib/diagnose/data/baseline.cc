@@ -72,6 +72,12 @@ CoulombTransition TransitionOf(const Robot& robot, int j,
   return transition;
 }
 
+// A size that an offset of a joint's torque may have, N m or N.
+double UsualOffset(const Joint& joint, double usual_torque) {
+  return std::max(std::abs(joint.coulomb),
+                  Limits().offset_share * usual_torque);
+}
+
 VectorXd TermTorque(JointTerm term, const CoulombTransition& transition,
                     const Motion& motion, int j) {
   switch (term) {
@@ -97,7 +103,7 @@ VectorXd TermTorque(JointTerm term, const CoulombTransition& transition,
 // with all of their correlations.
 GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
                          const VectorXd& usual_torque)
-    : robot_(robot) {
+    : robot_(robot), usual_torque_(usual_torque) {
   const int n = robot.num_joints();
   CHECK_EQ(usual_torque.size(), n);
   for (int j = 0; j < n; ++j) {
@@ -121,7 +127,10 @@ GapBaseline GapBaseline::MovedTo(const VectorXd& x) const {
 
 // Viscous and Coulomb friction of the diagnosed day, beside that of the
 // reference: their prior is the scatter from day to day, a share of the
-// friction itself (day_shares.h).
+// friction itself (day_shares.h). Zeros of torques wander, too: by a size that
+// the sensor or the drive has, for which there is no rule, so that theirs is
+// wide (UsualOffset) and they are held until several joints show them
+// (HaveZerosMoved).
 void GapBaseline::FreeDays() {
   for (int j = 0; j < robot_.num_joints(); ++j) {
     for (const auto& [term, share] : kShareOfDays) {
@@ -131,6 +140,10 @@ void GapBaseline::FreeDays() {
       columns_.push_back(
           {BaselineColumn::Kind::kDay, j, static_cast<int>(term), spread});
     }
+    const double spread = UsualOffset(robot_.links[j].joint, usual_torque_[j]);
+    if (spread <= 0) continue;
+    columns_.push_back({BaselineColumn::Kind::kDay, j,
+                        static_cast<int>(JointTerm::kOffset), spread});
   }
 }
 
@@ -219,8 +232,7 @@ void GapBaseline::AddTerms(int j, const BaselineOptions& options,
   add(JointTerm::kCoulomb, joint.coulomb);
   // A file that was made by measuring friction has its zero as well as that.
   if (options.missing_terms.empty()) {
-    add(JointTerm::kOffset, std::max(std::abs(joint.coulomb),
-                                     Limits().offset_share * usual_torque));
+    add(JointTerm::kOffset, UsualOffset(joint, usual_torque));
   } else {
     add(JointTerm::kOffset,
         Limits().offset_share * usual_torque / options.trust);

@@ -53,7 +53,8 @@ class GapBaseline {
   // The same freedom around values x: they are the new zero.
   GapBaseline MovedTo(const Eigen::VectorXd& x) const;
   // From now on friction may differ between a reference and the diagnosed logs
-  // by as much as that of gears does from day to day.
+  // by as much as that of gears does from day to day, and torques' zeros by as
+  // much as friction is.
   void FreeDays();
   // From now on the linear parameters of these are columns, too. Once.
   void AddKnown(const KnownEffects& known);
@@ -101,6 +102,7 @@ class GapBaseline {
                               const RecordedTorque& torque) const;
 
   Robot robot_;
+  Eigen::VectorXd usual_torque_;
   std::vector<BaselineColumn> columns_;
   ColumnPrior prior_;
   KnownEffects known_;

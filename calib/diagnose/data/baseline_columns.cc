@@ -39,6 +39,15 @@ void BaselineColumns::Remove(int column) {
   which.erase(at);
 }
 
+void BaselineColumns::Insert(int column, const Eigen::VectorXd& more) {
+  const auto at = std::lower_bound(which.begin(), which.end(), column);
+  const Eigen::Index place = at - which.begin(), after = which.end() - at;
+  Eigen::MatrixXd all(more.size(), place + 1 + after);
+  all << values.leftCols(place), more, values.rightCols(after);
+  values = std::move(all);
+  which.insert(at, column);
+}
+
 std::vector<BaselineColumns> OnEachJoint(std::vector<Eigen::MatrixXd> values) {
   std::vector<BaselineColumns> joints;
   for (Eigen::MatrixXd& one : values) {

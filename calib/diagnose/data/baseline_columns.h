@@ -23,6 +23,8 @@ struct BaselineColumns {
   void KeepFirst(int columns);
   // As if it did not act.
   void Remove(int column);
+  // One that it does not have.
+  void Insert(int column, const Eigen::VectorXd& more);
 };
 
 // Of columns that may all act on each joint (samples x columns).

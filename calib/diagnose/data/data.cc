@@ -129,8 +129,21 @@ void GapData::ScaleColumns(int first, double factor) {
 
 void GapData::Hold(int column) {
   Columns held = *columns_;
-  for (BaselineColumns& columns : held) columns.Remove(column);
+  for (size_t j = 0; j < held.size(); ++j) {
+    const VectorXd values = held[j].Column(column);
+    if (values.size() > 0) held_[column][static_cast<int>(j)] = values;
+    held[j].Remove(column);
+  }
   columns_ = std::make_shared<const Columns>(std::move(held));
+}
+
+void GapData::Free(int column) {
+  Columns freed = *columns_;
+  for (const auto& [joint, values] : held_[column]) {
+    freed[joint].Insert(column, values);
+  }
+  held_.erase(column);
+  columns_ = std::make_shared<const Columns>(std::move(freed));
 }
 
 void GapData::Distrust(const MatrixXd& extra_stddev) {

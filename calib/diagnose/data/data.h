@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -50,8 +51,10 @@ class GapData {
   void ScaleEvidence(const Eigen::VectorXd& factor);
   // Multiplies the baseline's columns from `first` on.
   void ScaleColumns(int first, double factor);
-  // As if this column of the baseline did not act in these logs.
+  // As if this column of the baseline did not act in these logs; and as if it
+  // had not been held, but for what was scaled since then.
   void Hold(int column);
+  void Free(int column);
   // From now on samples may be off by this as well (standard deviations,
   // thinned samples x n, N m or N), whatever is masked; with the next noise.
   void Distrust(const Eigen::MatrixXd& extra_stddev);
@@ -82,6 +85,8 @@ class GapData {
   std::unique_ptr<GapRows> rows_;
   std::vector<RecordedTorque> torques_;
   std::shared_ptr<const Columns> columns_;
+  // Per joint that a held column acts on.
+  std::map<int, std::map<int, Eigen::VectorXd>> held_;
   int num_columns_;
   ColumnPrior prior_;
   Eigen::MatrixXd extra_stddev_;

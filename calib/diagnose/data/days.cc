@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <set>
 
@@ -10,14 +11,66 @@
 
 namespace armcal {
 
-std::vector<int> DayColumns(const GapBaseline& baseline) {
+namespace {
+
+// Of the day: torques' zeros, or all others.
+std::vector<int> ColumnsOfDay(const GapBaseline& baseline, bool zeros) {
   std::vector<int> columns;
   for (int c = 0; c < baseline.size(); ++c) {
-    if (baseline.columns()[c].kind == BaselineColumn::Kind::kDay) {
+    const BaselineColumn& column = baseline.columns()[c];
+    const bool is_zero =
+        static_cast<JointTerm>(column.index) == JointTerm::kOffset;
+    if (column.kind == BaselineColumn::Kind::kDay && is_zero == zeros) {
       columns.push_back(c);
     }
   }
   return columns;
+}
+
+}  // namespace
+
+std::vector<int> DayColumns(const GapBaseline& baseline) {
+  return ColumnsOfDay(baseline, false);
+}
+
+std::vector<int> ZeroColumns(const GapBaseline& baseline) {
+  return ColumnsOfDay(baseline, true);
+}
+
+// The largest one against the root mean square of the n others: Student's t of
+// n degrees, at kChanceOfDays of all joints together (Bonferroni); then the
+// next against what is left, as long as two others are.
+std::vector<int> BeyondTheOthers(const GapBaseline& baseline,
+                                 const Eigen::VectorXd& x) {
+  std::vector<int> zeros = ZeroColumns(baseline), beyond;
+  const double joints = static_cast<double>(zeros.size());
+  std::sort(zeros.begin(), zeros.end(),
+            [&](int a, int b) { return std::abs(x[a]) > std::abs(x[b]); });
+  while (zeros.size() > 2) {
+    const int largest = zeros.front();
+    zeros.erase(zeros.begin());
+    const double n = static_cast<double>(zeros.size());
+    const boost::math::students_t t(n);
+    const double most = boost::math::quantile(boost::math::complement(
+                            t, kChanceOfDays / (2 * joints))) *
+                        std::sqrt(x(zeros).squaredNorm() / n);
+    if (std::abs(x[largest]) < most) break;
+    beyond.push_back(largest);
+  }
+  return beyond;
+}
+
+std::vector<int> NotableZeros(const GapBaseline& baseline,
+                              const Eigen::VectorXd& x) {
+  const std::vector<int> zeros = ZeroColumns(baseline);
+  const double least =
+      Limits().notable *
+      std::sqrt(x(zeros).squaredNorm() / std::max<double>(1, zeros.size()));
+  std::vector<int> notable;
+  for (const int c : zeros) {
+    if (std::abs(x[c]) > least) notable.push_back(c);
+  }
+  return notable;
 }
 
 // Columns x of friction from day to day are N(0, 1) before, and an estimate of

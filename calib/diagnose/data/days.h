@@ -7,8 +7,17 @@
 
 namespace armcal {
 
-// Columns of friction that differs from day to day.
+// Columns of friction that differs from day to day, and of torques' zeros.
 std::vector<int> DayColumns(const GapBaseline& baseline);
+std::vector<int> ZeroColumns(const GapBaseline& baseline);
+
+// Of zeros of torques that have moved, x in their standard deviations: those
+// that moved by more than the others scatter, and those that are worth telling
+// among all that moved. None where all are held, at 0.
+std::vector<int> BeyondTheOthers(const GapBaseline& baseline,
+                                 const Eigen::VectorXd& x);
+std::vector<int> NotableZeros(const GapBaseline& baseline,
+                              const Eigen::VectorXd& x);
 
 // How often friction of an ordinary other day is taken for more: beyond three
 // standard deviations.

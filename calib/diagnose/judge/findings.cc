@@ -6,7 +6,7 @@
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/judge/changed_friction.h"
+#include "calib/diagnose/judge/changed_together.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/contact_finding.h"
 #include "calib/diagnose/judge/description.h"
@@ -169,7 +169,7 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
 // nothing that is claimed, and held-out data have it again, something is there
 // without a name.
 GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
-  result_.effects = ListChangedFriction(fit_);
+  result_.effects = ListChangedTogether(fit_);
   AddMissingTerms(terms);
   if (!fit_.events().empty()) {
     result_.effects.push_back(FindContact(robot_, fit_, evidence_.ForEvents()));
@@ -279,7 +279,7 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // Effects that are not claimed leave the fit, and everything that is shown is
 // of the fit without them: estimates, covariances and, later, the figures. What
 // they explained may go to the others, which is why these are described anew,
-// and friction that has changed with them.
+// and what has changed together with them.
 void FitClaimed(GapFindings* findings, GapFit* fit) {
   std::vector<int> kept;
   for (const FoundEffect& found : findings->effects) {
@@ -294,7 +294,7 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
                                  return found.of_another_day;
                                }),
                 effects.end());
-  for (FoundEffect& found : ListChangedFriction(*fit)) {
+  for (FoundEffect& found : ListChangedTogether(*fit)) {
     effects.push_back(std::move(found));
   }
   SortFindings(&effects);

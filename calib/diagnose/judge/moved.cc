@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/diagnose/candidates/law_share.h"
+#include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
@@ -29,6 +30,7 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
     parameter.name = joint.name + "." + JointTermName(term);
     parameter.unit = JointTermUnit(term, joint.type);
     parameter.nominal = TermOf(term, joint);
+    parameter.term = term;
   }
   return parameter;
 }
@@ -78,7 +80,8 @@ Added AddedByLaws(const RefinedEffects& refined,
 // prior's standard deviation, largest first: where the data have not enough of
 // them, a large value is the data's noise, so that they have to be clear of
 // their own deviation too. With a reference, columns of the day are told and
-// not those that the reference already moved.
+// not those that the reference already moved; zeros of torques, for which there
+// is no prior to speak of, by the size that they have together.
 std::vector<MovedParameter> ListMoved(
     const GapFit& fit, const Eigen::VectorXd& x,
     const std::vector<CarriedEffect>& effects) {
@@ -88,6 +91,7 @@ std::vector<MovedParameter> ListMoved(
       std::any_of(columns.begin(), columns.end(), [](const auto& column) {
         return column.kind == BaselineColumn::Kind::kDay;
       });
+  const std::vector<int> zeros = NotableZeros(fit.baseline(), x);
   std::vector<MovedParameter> moved;
   for (int c = 0; c < x.size(); ++c) {
     const BaselineColumn& column = fit.baseline().columns()[c];
@@ -103,7 +107,9 @@ std::vector<MovedParameter> ListMoved(
     const double change = x[c] + added.since / column.spread;
     const double own = std::sqrt(covariance(c, c) +
                                  added.variance / std::pow(column.spread, 2));
-    const double least = of_day ? Limits().notable : Limits().far;
+    const bool is_zero = of_day && parameter.term == JointTerm::kOffset;
+    const double least = is_zero ? 0 : of_day ? Limits().notable : Limits().far;
+    if (is_zero && std::count(zeros.begin(), zeros.end(), c) == 0) continue;
     if (std::abs(change) < std::max(least * prior, Limits().far * own))
       continue;
     parameter.nominal += added.before;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct MovedParameter {
   std::string unit;
   double nominal = 0, value = 0, stddev = 0;
   double deviations = 0;  // of the prior
+  std::optional<JointTerm> term;
 };
 
 // Those that the data move by more than two standard deviations of the prior

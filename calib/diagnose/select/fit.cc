@@ -94,15 +94,21 @@ void GapFit::MakeScreen() {
 // Effects given the noise that they leave, where that is not known. A choice
 // needs a noise and the noise needs a choice: GrowEffects starts it, by odds
 // that compare models under their own variances, and SelectEffects is repeated
-// with the noise of its own last answer until the choice stays as it is.
+// with the noise of its own last answer until the choice stays as it is. Where
+// zeros of torques have moved, they are freed first.
 void GapFit::SelectWithTheirNoise() {
   constexpr int kRounds = 3;
   if (!rows().has_evidence()) {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
     return;
   }
-  std::vector<int> before =
-      GrowEffects(candidates(), options_.selection, &regression_);
+  Growth growth = GrowEffects(candidates(), options_.selection, &regression_);
+  if (growth.other_zeros) {
+    regression_.FreeZeros();
+    MakeScreen();
+    growth = GrowEffects(candidates(), options_.selection, &regression_);
+  }
+  std::vector<int> before = growth.effects;
   for (int round = 0; round < kRounds; ++round) {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
     if (std::is_permutation(before.begin(), before.end(),

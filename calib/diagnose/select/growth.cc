@@ -94,6 +94,54 @@ int Likeliest(const VectorXd& scores, const VectorXd& explained, double all,
                       : best_beyond(-std::numeric_limits<double>::infinity());
 }
 
+// Whether offsets on several joints, none of which could be spared, are
+// together likelier than what is likeliest by itself (`best`, above the
+// threshold). Zeros of torque sensors and drives wander from day to day on all
+// joints, each by so little that another effect on many joints (an added mass)
+// is likelier than any of these offsets, and stands for them.
+bool HaveZerosMoved(const GapRegression& regression,
+                    const std::vector<GapCandidate>& candidates,
+                    const SelectionOptions& options,
+                    const std::vector<int>& set, const GapScreen& smaller,
+                    double best) {
+  const GapScreen& screen = regression.screen();
+  std::vector<int> offsets, more;
+  double penalty = 0;
+  const auto is_offset = [&](int c) {
+    return candidates[c].effect->joint_term == JointTerm::kOffset;
+  };
+  for (const int c : set) {
+    if (!is_offset(c)) more.push_back(c);
+  }
+  for (int c = 0; c < static_cast<int>(candidates.size()); ++c) {
+    if (!is_offset(c)) continue;
+    offsets.push_back(c);
+    if (std::count(set.begin(), set.end(), c) == 0) {
+      penalty += Penalty(screen, candidates[c]);
+    }
+  }
+  if (static_cast<double>(offsets.size()) < Limits().several_joints) {
+    return false;
+  }
+  more.insert(more.begin(), offsets.begin(), offsets.end());
+  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  const EvidenceNoise& noise = regression.evidence();
+  if (CompareLarger(smaller, larger, noise).odds - penalty <
+      std::max(best, options.threshold)) {
+    return false;
+  }
+  int needed = 0;
+  for (size_t k = 0; k < offsets.size(); ++k) {
+    const GapScreen without =
+        screen.Only(ColumnsOf(candidates, Without(more, static_cast<int>(k))));
+    const LargerModel with =
+        CompareLarger(without, larger, SettleNoise(without, noise.stddev()));
+    needed +=
+        with.odds - Penalty(screen, candidates[offsets[k]]) > options.threshold;
+  }
+  return needed >= Limits().several_joints;
+}
+
 }  // namespace
 
 // Forward selection by the odds of the larger model against the smaller one,
@@ -105,9 +153,8 @@ int Likeliest(const VectorXd& scores, const VectorXd& explained, double all,
 // smaller model's variance is N / time at most. After each step the regression
 // is weighed by what the set leaves (SettleEvidence), for which the next
 // candidate has to be seen.
-std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
-                             const SelectionOptions& options,
-                             GapRegression* regression) {
+Growth GrowEffects(const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options, GapRegression* regression) {
   std::vector<int> set;
   regression->SettleEvidence({});
   while (static_cast<int>(set.size()) < options.most_effects) {
@@ -126,6 +173,11 @@ std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
       scores[i] = larger.odds - Penalty(screen, candidates[list[i]]);
       explained[i] = InNoise(*regression, larger.explained);
     });
+    if (regression->HoldsZeros() &&
+        HaveZerosMoved(*regression, candidates, options, set, smaller,
+                       scores.maxCoeff())) {
+      return {set, true};
+    }
     const int best =
         Likeliest(scores, explained,
                   InNoise(*regression, regression->evidence().variance),
@@ -134,7 +186,7 @@ std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
     set.push_back(list[best]);
     regression->SettleEvidence(ColumnsOf(candidates, set));
   }
-  return set;
+  return {set, false};
 }
 
 }  // namespace armcal

@@ -8,14 +8,20 @@
 
 namespace armcal {
 
+struct Growth {
+  std::vector<int> effects;
+  // Whether zeros of torques were likelier to have moved on several joints than
+  // any effect was to be there, where the search stopped; where they are held.
+  bool other_zeros = false;
+};
+
 // Effects one by one, of those that explain most of the gap the one whose
 // larger model is the most likely given those before (CompareLarger's odds less
 // the penalty of its parameters), as long as that is above the threshold. The
 // regression's noise is then that of what the last of these models leaves: an
 // effect that explains most of the torque shows how small the noise is only
 // once it is in the model.
-std::vector<int> GrowEffects(const std::vector<GapCandidate>& candidates,
-                             const SelectionOptions& options,
-                             GapRegression* regression);
+Growth GrowEffects(const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options, GapRegression* regression);
 
 }  // namespace armcal

@@ -64,7 +64,10 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
     reference_ =
         std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);
     for (const int c : DayColumns(baseline)) reference_->Hold(c);
+    for (const int c : ZeroColumns(baseline)) reference_->Hold(c);
   }
+  for (const int c : ZeroColumns(baseline)) data_->Hold(c);
+  holds_zeros_ = !ZeroColumns(baseline).empty();
   EstimateNoise();
   scale_ = ScaleOf(baseline, data_->rows(), data_->torques());
 }
@@ -84,6 +87,7 @@ GapRegression::GapRegression(const GapRegression& other, LogPart part)
       another_day_(other.another_day_),
       held_(other.held_),
       changed_together_(other.changed_together_),
+      holds_zeros_(other.holds_zeros_),
       before_(other.before_) {
   MakeScreen();
   refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
@@ -200,8 +204,8 @@ void GapRegression::Refit() {
   MakeScreen();
   SettleEvidence({});
   refit_ = screen_->BaselineGiven(JointRows(data_->rows().num_joints()));
-  const bool days = HoldDays(), offsets = HoldOffsets();
-  if (days || offsets) Refit();
+  const bool days = HoldDays(), offsets = HoldOffsets(), zeros = HoldZeros();
+  if (days || offsets || zeros) Refit();
 }
 
 // The standard deviations of what models lack as a rule are those of an average
@@ -277,10 +281,16 @@ bool GapRegression::HoldDays() {
     const bool is_usual =
         std::abs(refit_[c]) < kUsual || changed_together_.count(c) > 0;
     if (*another_day_ && is_usual) continue;
-    any |= held_.insert(c).second;
-    data_->Hold(c);
+    any |= HoldNow(c);
   }
   return any;
+}
+
+// Whether it was not held before.
+bool GapRegression::HoldNow(int column) {
+  const bool is_new = held_.insert(column).second;
+  if (is_new) data_->Hold(column);
+  return is_new;
 }
 
 // An offset of a joint's torque is one number of all logs, and differs from log
@@ -297,9 +307,22 @@ bool GapRegression::HoldOffsets() {
         column.kind == BaselineColumn::Kind::kTerm &&
         static_cast<JointTerm>(column.index) == JointTerm::kOffset;
     if (!is_offset || std::abs(refit_[c]) < kUsual) continue;
-    any |= held_.insert(c).second;
-    data_->Hold(c);
+    any |= HoldNow(c);
   }
+  return any;
+}
+
+void GapRegression::FreeZeros() {
+  for (const int c : ZeroColumns(baseline_)) data_->Free(c);
+  holds_zeros_ = false;
+}
+
+// Of zeros that have moved, those that moved by more than the others do are to
+// be explained by an effect.
+bool GapRegression::HoldZeros() {
+  if (holds_zeros_) return false;
+  bool any = false;
+  for (const int c : BeyondTheOthers(baseline_, refit_)) any |= HoldNow(c);
   return any;
 }
 

@@ -49,6 +49,10 @@ class GapRegression {
   void SettleEvidence(const std::vector<int>& columns);
   // The same with this noise, per joint (N m or N), of another fit.
   void WeighBy(const Eigen::VectorXd& stddev);
+  // Whether zeros of torques are held at those of the reference, or of the
+  // calibration; and frees them, from the next Refit on.
+  bool HoldsZeros() const { return holds_zeros_; }
+  void FreeZeros();
   // Gives what models lack as a rule the size, of the routine one and smaller
   // ones, that is the most likely given these columns; once, before the next
   // Refit, and where no reference has told it. Whether that changed it.
@@ -88,6 +92,8 @@ class GapRegression {
   void MakeScreen();
   bool HoldDays();
   bool HoldOffsets();
+  bool HoldZeros();
+  bool HoldNow(int column);
 
   const GapBaseline& baseline_;
   std::unique_ptr<GapData> data_;
@@ -103,6 +109,7 @@ class GapRegression {
   std::optional<bool> another_day_;
   std::set<int> held_;
   std::set<int> changed_together_;  // of the days' columns
+  bool holds_zeros_ = false;
   Eigen::VectorXd before_, refit_;
 };
 

@@ -39,7 +39,7 @@ inline GapDiagnosis SampleDiagnosis() {
   first.equivalent = {{FindEffect("presliding"), 1, .08, 10}};
   first.separate_by = "constant velocities";
   diagnosis.candidates = {{first.effect, 1, .9, 30}};
-  diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3}};
+  diagnosis.moved = {{"forearm.mass", "kg", 2, 2.5, .1, 3, {}}};
   diagnosis.untestable = {{"backlash", "elbow", "the load never reverses"}};
   diagnosis.data = {{"currents", "no torque column", "`torque_constants`"}};
   diagnosis.torque.nominal = 12;

@@ -142,8 +142,9 @@ TEST(BriefReport, SaysWithinWhatItAgrees) {
 TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.has_reference = true;
-  diagnosis.moved = {{"elbow.viscous", "N m s/rad", 10, 8, .1, -2},
-                     {"wrist.coulomb", "N m", 0, .25, .01, 1}};
+  diagnosis.moved = {
+      {"elbow.viscous", "N m s/rad", 10, 8, .1, -2, JointTerm::kViscous},
+      {"wrist.coulomb", "N m", 0, .25, .01, 1, JointTerm::kCoulomb}};
   const std::string said =
       "Friction has changed since the reference: elbow.viscous -20 %, "
       "wrist.coulomb +0.25 N m. ";
@@ -156,6 +157,23 @@ TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
   // Against a file it is the file that is wrong.
   diagnosis.has_reference = false;
   EXPECT_THAT(BriefReport(diagnosis), Not(HasSubstr("Friction has changed")));
+}
+
+TEST(BriefReport, SaysZerosOfTorquesApart) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  diagnosis.torque.refit = 1;
+  diagnosis.moved = {
+      {"elbow.offset", "N m", -.01, .09, .01, 2, JointTerm::kOffset},
+      {"elbow.viscous", "N m s/rad", 10, 8, .1, -2, JointTerm::kViscous},
+      {"wrist.offset", "N m", 0, -.25, .01, -1, JointTerm::kOffset}};
+  EXPECT_EQ(BriefReport(diagnosis),
+            "Friction has changed since the reference: elbow.viscous -20 %. "
+            "Torques' zeros have moved since the reference: elbow.offset +0.1 "
+            "N m, wrist.offset -0.25 N m. Nothing but these, friction and "
+            "timing has changed.");
 }
 
 TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {

@@ -1,5 +1,6 @@
 #include "calib/diagnose/data/days.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/fixtures/sample_robots.h"
@@ -38,6 +39,39 @@ class GapDaysTest : public testing::Test {
 
 TEST_F(GapDaysTest, ViscousAndCoulombFrictionDifferFromDayToDay) {
   EXPECT_EQ(DayColumns(baseline_).size(), 12u);
+}
+
+TEST_F(GapDaysTest, SoDoZerosOfTorques) {
+  EXPECT_EQ(ZeroColumns(baseline_).size(), 6u);
+}
+
+// Six zeros of deviations .5 -.4 .3 -.6 .4 and the last one's.
+class ZerosTest : public GapDaysTest {
+ protected:
+  VectorXd Zeros(double last) const {
+    const double moved[] = {.5, -.4, .3, -.6, .4, last};
+    VectorXd x = VectorXd::Zero(baseline_.size());
+    for (const int c : ZeroColumns(baseline_)) {
+      x[c] = moved[baseline_.columns()[c].joint];
+    }
+    return x;
+  }
+  int last() const { return ZeroColumns(baseline_).back(); }
+};
+
+// Student's t of five degrees at .0027 / 12 is 8.49 (tables of t: 6.87 at
+// .0005, 9.68 at .00005), their root mean square .452.
+TEST_F(ZerosTest, OneThatMovedFarMoreThanTheOthersDoIsTold) {
+  EXPECT_THAT(BeyondTheOthers(baseline_, Zeros(3.5)), testing::IsEmpty());
+  EXPECT_THAT(BeyondTheOthers(baseline_, Zeros(-4.2)),
+              testing::ElementsAre(last()));
+}
+
+TEST_F(ZerosTest, SmallOnesAreNotWorthTelling) {
+  EXPECT_EQ(NotableZeros(baseline_, Zeros(.1)).size(), 5u);
+  EXPECT_EQ(NotableZeros(baseline_, Zeros(.5)).size(), 6u);
+  EXPECT_THAT(NotableZeros(baseline_, VectorXd::Zero(baseline_.size())),
+              testing::IsEmpty());
 }
 
 TEST_F(GapDaysTest, OneOrTwoJointsAreNoOtherDay) {

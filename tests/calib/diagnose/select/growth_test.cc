@@ -1,12 +1,16 @@
 #include "calib/diagnose/select/growth.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
+#include "calib/diagnose/data/days.h"
 #include "calib/diagnose/select/fit.h"
 #include "model/effects/effects.h"
 #include "tests/fixtures/effect_arm.h"
@@ -61,6 +65,82 @@ TEST_F(GrowthTest, WhatIsMostOfTheGapIsAmongTheFewThatAreChosen) {
     return effect.joint == 0 && effect.effect->name == "torque_offset";
   };
   EXPECT_EQ(std::count_if(effects.begin(), effects.end(), is_it), 1);
+}
+
+// Torques of another day, of which each joint's is off by a small part of the
+// friction, with white noise, and joint 1's by as much more.
+class ZerosOfAnotherDayTest : public testing::Test {
+ protected:
+  ZerosOfAnotherDayTest() : arm_("PUMA560 6R", 20, .01) {
+    for (Link& link : arm_.robot.links) {
+      link.joint.viscous = 3;
+      link.joint.coulomb = 4;
+    }
+    baseline_.emplace(arm_.robot, BaselineOptions{}, VectorXd::Constant(6, 10));
+    baseline_->FreeDays();
+  }
+
+  GapSegment Recorded(int log, const VectorXd& zeros) {
+    MatrixXd tau =
+        RecordedTorque(arm_.robot, baseline_->transitions(), arm_.motion)
+            .nominal();
+    AddNoise(&random_, VectorXd::Constant(6, .1), &tau);
+    tau.rowwise() += zeros.transpose();
+    GapSegment segment = MakeSegment(arm_.motion, tau);
+    segment.log = log;
+    return segment;
+  }
+  GapFit Fit(const VectorXd& zeros) {
+    GapFitOptions options;
+    options.bandwidth_hz = kBandwidth;
+    GapFit fit(*baseline_, options, {Recorded(0, zeros)},
+               {Recorded(1, VectorXd::Zero(6))});
+    fit.Choose();
+    return fit;
+  }
+  static std::vector<std::string> PlacesOf(const GapFit& fit) {
+    std::vector<std::string> places;
+    for (const GapCandidate& effect : fit.refined().effects) {
+      places.push_back(effect.place());
+    }
+    return places;
+  }
+
+  EffectArm arm_;
+  std::optional<GapBaseline> baseline_;
+  std::mt19937_64 random_{5};
+  const VectorXd small_ =
+      (VectorXd(6) << .15, -.2, .1, -.25, .2, -.15).finished();
+};
+
+TEST_F(ZerosOfAnotherDayTest, AreNoEffects) {
+  const GapFit fit = Fit(small_);
+  EXPECT_THAT(PlacesOf(fit), testing::IsEmpty());
+  EXPECT_FALSE(fit.regression().HoldsZeros());
+  for (const int c : ZeroColumns(*baseline_)) {
+    const BaselineColumn& column = baseline_->columns()[c];
+    EXPECT_NEAR(fit.refined().baseline[c] * column.spread, small_[column.joint],
+                .05);
+  }
+}
+
+TEST_F(ZerosOfAnotherDayTest, OneThatIsFarBeyondTheOthersIs) {
+  VectorXd zeros = small_;
+  zeros[2] = 8;
+  const GapFit fit = Fit(zeros);
+  ASSERT_THAT(PlacesOf(fit), testing::ElementsAre("torque_offset@3"));
+  EXPECT_NEAR(fit.refined().effects[0].p[0], 8, .1);
+  EXPECT_FALSE(fit.regression().HoldsZeros());
+}
+
+TEST_F(ZerosOfAnotherDayTest, TwoOffsetsAreTwoEffects) {
+  VectorXd zeros = VectorXd::Zero(6);
+  zeros[1] = .8;
+  zeros[4] = -.5;
+  const GapFit fit = Fit(zeros);
+  EXPECT_THAT(PlacesOf(fit), testing::UnorderedElementsAre("torque_offset@2",
+                                                           "torque_offset@5"));
+  EXPECT_TRUE(fit.regression().HoldsZeros());
 }
 
 }  // namespace armcal::growth_test

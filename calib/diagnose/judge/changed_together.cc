@@ -1,4 +1,4 @@
-#include "calib/diagnose/judge/changed_friction.h"
+#include "calib/diagnose/judge/changed_together.h"
 
 #include <cmath>
 #include <limits>
@@ -13,8 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Columns of friction are in units of the usual scatter from day to day, so
-// that the sum of their squares is chi squared of that many changes.
-std::vector<FoundEffect> ListChangedFriction(const GapFit& fit) {
+// that the sum of their squares is chi squared of that many changes. Zeros are
+// free only where the evidence was for it (HaveZerosMoved).
+std::vector<FoundEffect> ListChangedTogether(const GapFit& fit) {
   std::vector<FoundEffect> all;
   const GapBaseline& baseline = fit.baseline();
   const VectorXd& x = fit.refined().baseline;
@@ -22,7 +23,9 @@ std::vector<FoundEffect> ListChangedFriction(const GapFit& fit) {
   for (const Effect& effect : Effects()) {
     if (!effect.joint_term) continue;
     const std::vector<int> changed =
-        ChangedTogether(baseline, *effect.joint_term, x, covariance);
+        *effect.joint_term == JointTerm::kOffset
+            ? NotableZeros(baseline, x)
+            : ChangedTogether(baseline, *effect.joint_term, x, covariance);
     if (changed.empty()) continue;
     FoundEffect found;
     found.effect = &effect;

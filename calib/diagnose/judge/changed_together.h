@@ -9,8 +9,9 @@
 namespace armcal {
 
 // Friction that differs from the reference's on several joints together, as
-// temperature makes it: one effect per term, given the fit's effects.
-std::vector<FoundEffect> ListChangedFriction(const GapFit& fit);
+// temperature makes it, and zeros of torques that do: one effect per term,
+// given the fit's effects.
+std::vector<FoundEffect> ListChangedTogether(const GapFit& fit);
 
 // FoundEffect::over_change of an effect on this joint that lowers the held-out
 // mean square by `gain`.
