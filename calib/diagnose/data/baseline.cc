@@ -315,7 +315,13 @@ BaselineColumns GapBaseline::FineColumns(int j, const GapSegment& segment,
       continue;
     }
     VectorXd column = FineColumn(columns_[c], j, inertial, torque);
-    if (column.size() > 0) add(c, columns_[c].spread * column);
+    if (column.size() == 0) continue;
+    column *= OwnSpread(columns_[c]);
+    const VectorXd laws = LawsOfDay(columns_[c]);
+    for (Eigen::Index k = 0; k < laws.size(); ++k) {
+      if (laws[k] != 0) column += laws[k] * known[k].col(j);
+    }
+    add(c, std::move(column));
   }
   MatrixXd own;
   for (int c = model; c < size(); ++c) {
@@ -365,7 +371,7 @@ Robot GapBaseline::With(const VectorXd& x) const {
   Robot robot = robot_;
   for (int c = 0; c < size(); ++c) {
     const BaselineColumn& column = columns_[c];
-    const double value = x[c] * column.spread;
+    const double value = x[c] * OwnSpread(column);
     if (column.kind == BaselineColumn::Kind::kInertial) {
       Vector10d v = Vector10d::Zero();
       v[column.index] = value;
@@ -398,8 +404,50 @@ std::vector<CoulombPart> GapBaseline::CoulombAt(int j,
   return parts;
 }
 
+// Of its joint's friction, the share that a column of dry friction of the day
+// is of per unit; 0: it is none.
+double GapBaseline::ShareOfDay(const BaselineColumn& column) const {
+  const bool is_of_dry_friction =
+      column.kind == BaselineColumn::Kind::kDay &&
+      static_cast<JointTerm>(column.index) == JointTerm::kCoulomb;
+  return is_of_dry_friction
+             ? column.spread / robot_.links[column.joint].joint.coulomb
+             : 0;
+}
+
+// What a column is of the joint's own term or of the link, SI units per unit.
+// Dry friction of another day is another share of all that a joint has of it:
+// where a reference showed laws of it, Coulomb friction is what it is beside
+// them, which may be less than none, and their sum what robot files have.
+double GapBaseline::OwnSpread(const BaselineColumn& column) const {
+  const double share = ShareOfDay(column);
+  return share == 0 ? column.spread
+                    : share * known_.CoulombBeside(
+                                  column.joint,
+                                  robot_.links[column.joint].joint.coulomb);
+}
+
+// The same of those laws: what they are the more, in units of their columns,
+// per unit of a column of the day. The share is that of what they were found to
+// be; that the logs may have them otherwise is of second order.
+VectorXd GapBaseline::LawsOfDay(const BaselineColumn& column) const {
+  const auto& parameters = known_.parameters();
+  VectorXd more = VectorXd::Zero(static_cast<Eigen::Index>(parameters.size()));
+  const double share = ShareOfDay(column);
+  for (size_t k = 0; k < parameters.size(); ++k) {
+    if (parameters[k].joint == column.joint) {
+      more[static_cast<Eigen::Index>(k)] = share * parameters[k].dry;
+    }
+  }
+  return more;
+}
+
 std::vector<KnownEffect> GapBaseline::KnownAt(const VectorXd& x) const {
-  return known_.At(x.segment(known_begin_, known_.parameters().size()));
+  VectorXd values = x.segment(known_begin_, known_.parameters().size());
+  for (int c = 0; c < known_begin_; ++c) {
+    if (x[c] != 0) values += x[c] * LawsOfDay(columns_[c]);
+  }
+  return known_.At(values);
 }
 
 double GapBaseline::DelayAt(const VectorXd& x) const {

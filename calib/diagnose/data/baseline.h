@@ -84,6 +84,9 @@ class GapBaseline {
   // The known effects at x.
   std::vector<KnownEffect> KnownAt(const Eigen::VectorXd& x) const;
   const KnownEffects& known() const { return known_; }
+  int known_begin() const {
+    return known_begin_;
+  }  // the first of their columns
   // By how much recorded torque is later than the motion, s.
   double DelayAt(const Eigen::VectorXd& x) const;
 
@@ -92,6 +95,9 @@ class GapBaseline {
   double WidthOf(const BaselineColumn& column) const;  // of kZeroVelocity
   void AddTerms(int joint, const BaselineOptions& options, double usual_torque);
   void AddReversal(int joint, double timing);
+  double ShareOfDay(const BaselineColumn& column) const;
+  double OwnSpread(const BaselineColumn& column) const;
+  Eigen::VectorXd LawsOfDay(const BaselineColumn& column) const;
   Eigen::VectorXd FineColumn(const BaselineColumn& column, int j,
                              const Eigen::MatrixXd& inertial,
                              const RecordedTorque& torque) const;
@@ -106,7 +112,7 @@ class GapBaseline {
   std::vector<BaselineColumn> columns_;
   ColumnPrior prior_;
   KnownEffects known_;
-  int known_begin_ = 0;  // the first of their columns
+  int known_begin_ = 0;
   Discrepancy discrepancy_;
   std::vector<CoulombTransition> transitions_;
 };

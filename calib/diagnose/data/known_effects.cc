@@ -14,17 +14,24 @@ using Eigen::VectorXd;
 // of its own value or of the size of its effect that matters, whichever is
 // more; shapes are held at what the reference showed.
 KnownEffects::KnownEffects(const Robot& robot, std::vector<KnownEffect> effects,
-                           const MotionScale& scale)
-    : effects_(std::move(effects)), scale_(scale) {
+                           const MotionScale& scale, DryFriction friction)
+    : effects_(std::move(effects)),
+      scale_(scale),
+      coulomb_(std::move(friction.coulomb)) {
   for (size_t e = 0; e < effects_.size(); ++e) {
     KnownEffect& known = effects_[e];
     for (int k = 0; k < known.p.size(); ++k) {
       const EffectParameter& parameter = known.effect->parameters[k];
       if (parameter.search != EffectParameter::Search::kLinear) continue;
-      parameters_.push_back(
-          {static_cast<int>(e), known.joint, k,
-           std::max(std::abs(known.p[k]),
-                    parameter.size({&robot, known.joint, &scale_}))});
+      const double spread = std::max(
+          std::abs(known.p[k]), parameter.size({&robot, known.joint, &scale_}));
+      double dry = 0;
+      for (const KnownEffect& law : friction.laws) {
+        const bool same =
+            law.effect == known.effect && law.joint == known.joint;
+        if (same) dry = law.p[k] / spread;
+      }
+      parameters_.push_back({static_cast<int>(e), known.joint, k, spread, dry});
       known.p[k] = 0;
     }
   }

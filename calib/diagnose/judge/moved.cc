@@ -35,11 +35,12 @@ MovedParameter Describe(const BaselineColumn& column, const Robot& robot) {
   return parameter;
 }
 
-// What laws of friction add to a term of a joint along the logs, SI units:
-// those that the reference showed, and those found as a change since then.
+// What laws of friction that were found as a change since a reference add to a
+// term of a joint along the logs, SI units. Those that the reference shows are
+// in the robot's term already, which was fitted to it without them.
 struct Added {
-  double before = 0, since = 0;
-  double variance = 0;  // of `since`
+  double since = 0;
+  double variance = 0;
 };
 
 // Whether a law is Coulomb friction in another form. What others (of position,
@@ -49,21 +50,17 @@ bool IsCoulomb(const Effect& law) {
 }
 
 // A share is in proportion to its law's first parameter, which is the size of
-// each law that terms stand for. The reference's laws come first.
+// each law that terms stand for. Laws that the reference shows come first.
 Added AddedByLaws(const RefinedEffects& refined,
                   const std::vector<CarriedEffect>& effects, int joint,
                   JointTerm term) {
   Added added;
-  const size_t known = effects.size() - refined.effects.size();
   Eigen::Index parameter = 0;
-  for (size_t k = 0; k < effects.size(); ++k) {
+  for (size_t k = effects.size() - refined.effects.size(); k < effects.size();
+       ++k) {
     const GapCandidate& found = effects[k].found;
     const bool adds = found.joint == joint && IsCoulomb(*found.effect);
     const double share = adds ? ShareOf(effects[k], term) : 0;
-    if (k < known) {
-      added.before += share;
-      continue;
-    }
     if (share != 0) {
       added.since += share;
       added.variance += std::pow(share / found.p[0], 2) *
@@ -112,7 +109,6 @@ std::vector<MovedParameter> ListMoved(
     if (is_zero && std::count(zeros.begin(), zeros.end(), c) == 0) continue;
     if (std::abs(change) < std::max(least * prior, Limits().far * own))
       continue;
-    parameter.nominal += added.before;
     parameter.value = parameter.nominal + change * column.spread;
     parameter.stddev = own * column.spread;
     parameter.deviations = change / prior;

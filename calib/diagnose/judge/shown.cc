@@ -37,16 +37,16 @@ bool AreSignificant(const VectorXd& p, const MatrixXd& covariance) {
 }
 
 // Laws that a reference shows by itself, with the values and the deviations
-// that all logs together give them. Their parameters are the last columns of
-// the baseline, so that their covariance is a corner of its, scaled from units
-// of the column to those of the law.
+// that all logs together give them. Their parameters are columns of the
+// baseline, so that their covariance is a block of its, scaled from units of
+// the column to those of the law.
 std::vector<ShownEffect> ListShown(const GapFit& fit,
                                    const Eigen::VectorXd& x) {
   const GapBaseline& baseline = fit.baseline();
   const auto& parameters = baseline.known().parameters();
   const auto count = static_cast<Eigen::Index>(parameters.size());
-  const MatrixXd all =
-      fit.screen().BaselineCovariance().bottomRightCorner(count, count);
+  const MatrixXd all = fit.screen().BaselineCovariance().block(
+      baseline.known_begin(), baseline.known_begin(), count, count);
   std::vector<ShownEffect> shown;
   for (const KnownEffect& known : baseline.KnownAt(x)) {
     const int place = static_cast<int>(shown.size());

@@ -1,5 +1,7 @@
 #include "calib/diagnose/select/reference_laws.h"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -27,6 +29,19 @@ constexpr int kMostKnown = 10;
 // anyway; nor a law that a linear model cannot have.
 bool CanBeInReference(const Effect& effect) {
   return effect.nature == Effect::Nature::kLaw && effect.proportional;
+}
+
+// What a robot file without the law has as Coulomb friction, no size of which
+// is per speed.
+bool IsDryFriction(const Effect& law) {
+  using Search = EffectParameter::Search;
+  const auto& terms = law.stand_ins;
+  return std::count(terms.begin(), terms.end(), JointTerm::kCoulomb) > 0 &&
+         std::all_of(law.parameters.begin(), law.parameters.end(),
+                     [](const EffectParameter& parameter) {
+                       return parameter.search != Search::kLinear ||
+                              parameter.unit == "E" || parameter.unit == "1";
+                     });
 }
 
 // Laws that explain what the baseline leaves, on the shapes of their grids, of
@@ -73,10 +88,35 @@ class LawSearch {
     KeepWhatIsSeenAgain(&chosen);
     GapScreen screen = ScreenOf(data_);
     fit = screen.Solve(ColumnsOf(candidates_, chosen));
-    return {baseline_.robot(), Known(chosen, fit), scale_};
+    const std::vector<int> dry = ToldDryFriction(chosen, fit);
+    const GapScreen::Fit of_dry = screen.Solve(ColumnsOf(candidates_, dry));
+    const Robot beside = baseline_.With(screen.Baseline(of_dry));
+    DryFriction friction{{}, Known(dry, of_dry)};
+    for (const Link& link : beside.links) {
+      friction.coulomb.push_back(link.joint.coulomb);
+    }
+    return {baseline_.robot(), Known(chosen, fit), scale_, friction};
   }
 
  private:
+  // Those of dry friction of which a parameter is told to three standard
+  // deviations.
+  std::vector<int> ToldDryFriction(const std::vector<int>& chosen,
+                                   const GapScreen::Fit& fit) const {
+    constexpr double kTold = 3;
+    std::vector<int> dry;
+    Eigen::Index at = 0;
+    for (const int c : chosen) {
+      bool is_told = false;
+      for (size_t k = 0; k < candidates_[c].linear.size(); ++k, ++at) {
+        is_told |= std::abs(fit.coefficients[at]) >
+                   kTold * std::sqrt(fit.covariance(at, at));
+      }
+      if (is_told && IsDryFriction(*candidates_[c].effect)) dry.push_back(c);
+    }
+    return dry;
+  }
+
   GapScreen ScreenOf(const GapData& data) {
     GapScreen screen = data.Screen();
     AddCandidates(data.rows(), &candidates_, &screen);
