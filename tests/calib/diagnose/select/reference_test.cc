@@ -85,6 +85,35 @@ TEST_F(GapReferenceTest, FrictionOfTheDayIsSaidNotBlamed) {
   }
 }
 
+// Bristles of .8 N m and friction of 1.5 N m beside them, both of which fall by
+// a quarter: the file has their sum.
+TEST_F(GapReferenceTest, FrictionOfTheDayIsAShareOfItsLawsToo) {
+  constexpr double kBristles = .8, kCoulomb = 1.5, kShort = .004;  // N m, rad
+  for (const int j : {0, 1}) {
+    AddAlways("presliding", j, {kBristles, kShort});
+    Add("presliding", j, {-.25 * kBristles, kShort});
+    Add("coulomb_friction", j, {-.25 * kCoulomb});
+  }
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  for (const FoundEffect& found : diagnosis.effects) {
+    EXPECT_TRUE(found.of_another_day) << found.effect->name;
+  }
+  for (const int j : {0, 1}) {
+    const std::string name = File().links[j].joint.name + ".coulomb";
+    ASSERT_THAT(diagnosis.moved, Contains(Field(&MovedParameter::name, name)));
+    for (const MovedParameter& moved : diagnosis.moved) {
+      if (moved.name != name) continue;
+      EXPECT_NEAR(moved.nominal, kCoulomb + kBristles, .2);
+      EXPECT_NEAR(moved.value / moved.nominal, .75, .05);
+    }
+  }
+  ASSERT_FALSE(diagnosis.shown.empty());
+  for (const ShownEffect& shown : diagnosis.shown) {
+    EXPECT_EQ(shown.effect->name, "presliding");
+    EXPECT_LT(shown.stddev[0], .1 * kBristles);
+  }
+}
+
 // The day is the same for all joints.
 TEST_F(GapReferenceTest, FrictionOfOneJointIsAChange) {
   Add("coulomb_friction", 1, {.12});  // of 1.5 N m
