@@ -128,6 +128,8 @@ struct Effect {
   // Of all joints: what else it may be where they disagree about its size, a
   // phrase; empty: nothing is known that looks so.
   std::string if_joints_disagree;
+  // Of all joints: the effect that looks so where each joint has it.
+  std::string if_of_each_joint;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

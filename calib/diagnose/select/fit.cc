@@ -91,24 +91,34 @@ void GapFit::MakeScreen() {
   pool_.List();
 }
 
+// What GrowEffects finds once zeros of torques that have moved are free, and
+// without what stands for an effect that each joint has.
+std::vector<int> GapFit::Grown() {
+  while (true) {
+    const Growth growth =
+        GrowEffects(candidates(), options_.selection, &regression_);
+    if (growth.other_zeros) {
+      regression_.FreeZeros();
+      MakeScreen();
+    } else if (growth.looks_like_it >= 0) {
+      pool_.Bar(growth.looks_like_it);
+    } else {
+      return growth.effects;
+    }
+  }
+}
+
 // Effects given the noise that they leave, where that is not known. A choice
 // needs a noise and the noise needs a choice: GrowEffects starts it, by odds
 // that compare models under their own variances, and SelectEffects is repeated
-// with the noise of its own last answer until the choice stays as it is. Where
-// zeros of torques have moved, they are freed first.
+// with the noise of its own last answer until the choice stays as it is.
 void GapFit::SelectWithTheirNoise() {
   constexpr int kRounds = 3;
   if (!rows().has_evidence()) {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
     return;
   }
-  Growth growth = GrowEffects(candidates(), options_.selection, &regression_);
-  if (growth.other_zeros) {
-    regression_.FreeZeros();
-    MakeScreen();
-    growth = GrowEffects(candidates(), options_.selection, &regression_);
-  }
-  std::vector<int> before = growth.effects;
+  std::vector<int> before = Grown();
   for (int round = 0; round < kRounds; ++round) {
     selection_ = SelectEffects(screen(), candidates(), options_.selection);
     if (std::is_permutation(before.begin(), before.end(),

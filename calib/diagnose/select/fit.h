@@ -98,6 +98,7 @@ class GapFit {
       const std::vector<GapCandidate>& effects) const;
   void Select();
   void SelectWithTheirNoise();
+  std::vector<int> Grown();
   std::vector<GapEvent> NewContacts(const std::vector<GapCandidate>& effects,
                                     ContactSearch search) const;
   // Whether there were any.

@@ -142,6 +142,38 @@ bool HaveZerosMoved(const GapRegression& regression,
   return needed >= Limits().several_joints;
 }
 
+// Whether candidate c, of all joints and with these odds less its penalty, is
+// less likely than what looks so where each joint has it
+// (Effect::if_of_each_joint): of each joint the shape that scores best by
+// itself. One number for all joints costs less than one for each, and of few
+// effects that a selection may have it explains the most; so that it would
+// stand for all of them.
+bool IsOfEachJoint(const GapRegression& regression,
+                   const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options, const std::vector<int>& set,
+                   const GapScreen& smaller, int c, double odds) {
+  const std::string& name = candidates[c].effect->if_of_each_joint;
+  if (name.empty()) return false;
+  const GapScreen& screen = regression.screen();
+  const VectorXd scores = ScoresGiven(screen, candidates, options, set, -1);
+  std::vector<int> best(screen.num_joints(), -1);
+  for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
+    if (candidates[k].effect->name != name || std::isinf(scores[k])) continue;
+    int& of_joint = best[candidates[k].joint];
+    if (of_joint < 0 || scores[k] > scores[of_joint]) of_joint = k;
+  }
+  std::vector<int> more = set;
+  double penalty = 0;
+  for (const int k : best) {
+    if (k < 0) continue;
+    more.push_back(k);
+    penalty += Penalty(screen, candidates[k]);
+  }
+  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  return CompareLarger(smaller, larger, regression.evidence()).odds - penalty >
+         odds;
+}
+
 }  // namespace
 
 // Forward selection by the odds of the larger model against the smaller one,
@@ -176,17 +208,21 @@ Growth GrowEffects(const std::vector<GapCandidate>& candidates,
     if (regression->HoldsZeros() &&
         HaveZerosMoved(*regression, candidates, options, set, smaller,
                        scores.maxCoeff())) {
-      return {set, true};
+      return {set, true, -1};
     }
     const int best =
         Likeliest(scores, explained,
                   InNoise(*regression, regression->evidence().variance),
                   options.threshold);
     if (best < 0) break;
+    if (IsOfEachJoint(*regression, candidates, options, set, smaller,
+                      list[best], scores[best])) {
+      return {set, false, list[best]};
+    }
     set.push_back(list[best]);
     regression->SettleEvidence(ColumnsOf(candidates, set));
   }
-  return {set, false};
+  return {set, false, -1};
 }
 
 }  // namespace armcal

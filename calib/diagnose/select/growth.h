@@ -13,6 +13,9 @@ struct Growth {
   // Whether zeros of torques were likelier to have moved on several joints than
   // any effect was to be there, where the search stopped; where they are held.
   bool other_zeros = false;
+  // The likeliest one where the search stopped, if it is of all joints and less
+  // likely than what looks so where each joint has it; -1: none.
+  int looks_like_it = -1;
 };
 
 // Effects one by one, of those that explain most of the gap the one whose

@@ -16,8 +16,8 @@ Effect Presliding() {
   effect.parameters = {Linear("coulomb", "E", ShareOfTorque(.05),
                               EffectParameter::Sign::kPositive),
                        Gridded("displacement", "P", [](const EffectSite& site) {
-                         return GeometricGrid(.003 * Radian(site),
-                                              .1 * Radian(site), 4);
+                         return GeometricGrid(.0001 * Radian(site),
+                                              .1 * Radian(site), 7);
                        })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {

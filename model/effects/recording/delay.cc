@@ -28,6 +28,7 @@ Effect Delay() {
   effect.if_joints_disagree =
       "friction that lags at reversals (presliding) or play of some joints "
       "(backlash)";
+  effect.if_of_each_joint = "presliding";
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }
