@@ -26,7 +26,35 @@ double ProbabilityOfEvent(const GapEvent& event, const EffectEvidence& evidence,
                   ProbabilityBeyondChance(chance_among_peaks, odds));
 }
 
-// The torque of each event on the joint that felt it most, over the noise's.
+// Of what is left of moving joints' torques where there is no event, over the
+// noise's: the largest in every block of time.
+std::vector<double> PeaksBesideEvents(const GapFit& fit) {
+  const GapRows& rows = fit.rows();
+  const RefinedEffects& refined = fit.refined();
+  const Eigen::MatrixXd left = fit.data()->ResidualWith(
+      refined.baseline, fit.regression().TorqueOf(refined.effects));
+  Eigen::VectorXd series = Eigen::VectorXd::Zero(left.rows());
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
+      const int log = rows.segments()[place.segment].log;
+      const bool in_event = std::any_of(
+          fit.events().begin(), fit.events().end(), [&](const auto& event) {
+            return event.contact.log == log &&
+                   event.contact.window.Contains(place.time);
+          });
+      if (in_event) continue;
+      series[place.sample] =
+          std::max(series[place.sample], std::abs(left(place.sample, j)) /
+                                             fit.noise().joints[j].stddev());
+    }
+  }
+  std::vector<double> peaks = BlockMaxima(rows, BlockTime(rows), series);
+  peaks.erase(std::remove(peaks.begin(), peaks.end(), 0), peaks.end());
+  return peaks;
+}
+
+// The torque of each event on the joint that felt it most, over the noise's;
+// then what else peaks in the logs, which an event has to stand out from.
 std::vector<double> SizesOf(const GapFit& fit) {
   std::vector<double> sizes;
   for (const GapEvent& event : fit.events()) {
@@ -34,6 +62,8 @@ std::vector<double> SizesOf(const GapFit& fit) {
     sizes.push_back(std::abs(event.contact.torque[j]) /
                     fit.noise().joints[j].stddev());
   }
+  const std::vector<double> others = PeaksBesideEvents(fit);
+  sizes.insert(sizes.end(), others.begin(), others.end());
   return sizes;
 }
 
@@ -45,7 +75,7 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
   found.evidence = evidence;
   const std::vector<double> chances = ChancesAmongPeaks(SizesOf(fit));
   std::vector<double> probabilities;
-  for (size_t k = 0; k < chances.size(); ++k) {
+  for (size_t k = 0; k < fit.events().size(); ++k) {
     probabilities.push_back(
         ProbabilityOfEvent(fit.events()[k], found.evidence, chances[k]));
     found.probability = std::max(found.probability, probabilities[k]);
