@@ -1,5 +1,6 @@
 #include "calib/diagnose/select/reference_scatter.h"
 
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <map>
@@ -25,7 +26,7 @@ struct Products {
 
 bool ReferenceScatter::IsBeyond(double quantile) const {
   if (logs < kFewestLogs) return true;
-  const boost::math::students_t t(logs - 1);
+  const boost::math::students_t t(freedom);
   // A further log differs from the mean of these by more than they do.
   const double usual = stddev * std::sqrt(1 + 1. / logs);
   return usual * boost::math::quantile(t, (1 + quantile) / 2) < 1;
@@ -57,15 +58,48 @@ ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
     }
   }
   ReferenceScatter scatter;
-  double squares = 0;
+  double squares = 0, variances = 0;
   for (const auto& [log, of] : logs) {
     if (!(of.of_effect > 0)) continue;
     ++scatter.logs;
     squares += std::pow(of.by_left / of.of_effect, 2);
+    variances += 1 / of.of_effect;
   }
-  if (scatter.logs > 1)
-    scatter.stddev = std::sqrt(squares / (scatter.logs - 1));
+  if (scatter.logs < 2) return scatter;
+  scatter.freedom = scatter.logs - 1;
+  scatter.stddev = std::sqrt(squares / scatter.freedom);
+  scatter.expected = std::sqrt(variances / scatter.logs);
   return scatter;
+}
+
+// With ratios F = stddev^2 / expected^2 of d degrees each, the pooled one is
+//   sum d F / sum d,
+// and a joint's scatter that times its own expected one.
+ReferenceScatter PooledScatter(const ReferenceScatter& own,
+                               const std::vector<ReferenceScatter>& others) {
+  constexpr double kChance = .05;
+  const auto ratio = [](const ReferenceScatter& one) {
+    return std::pow(one.stddev / one.expected, 2);
+  };
+  if (own.freedom < 1) return own;
+  double sum = 0;
+  int freedom = 0;
+  for (const ReferenceScatter& other : others) {
+    if (other.freedom < 1) continue;
+    sum += other.freedom * ratio(other);
+    freedom += other.freedom;
+  }
+  if (freedom == 0 || !(sum > 0)) return own;
+  const boost::math::fisher_f chance(own.freedom, freedom);
+  const double most =
+      sum / freedom *
+      boost::math::quantile(boost::math::complement(chance, kChance));
+  if (ratio(own) > most) return own;
+  ReferenceScatter pooled = own;
+  pooled.freedom += freedom;
+  pooled.stddev = own.expected *
+                  std::sqrt((sum + own.freedom * ratio(own)) / pooled.freedom);
+  return pooled;
 }
 
 }  // namespace armcal

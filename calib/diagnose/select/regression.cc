@@ -337,8 +337,21 @@ bool GapRegression::IsTheSameDayGiven(
 
 ReferenceScatter GapRegression::ScatterOf(const GapCandidate& effect) const {
   if (!reference_) return {};
-  return ScatterBetweenLogs(baseline_, scale_, effect, refit_,
-                            reference_.get());
+  const auto scatter_of = [&](const GapCandidate& one) {
+    return ScatterBetweenLogs(baseline_, scale_, one, refit_, reference_.get());
+  };
+  const ReferenceScatter own = scatter_of(effect);
+  if (effect.joint < 0 || !has_several_references()) return own;
+  std::vector<ReferenceScatter> others;
+  for (int j = 0; j < rows().num_joints(); ++j) {
+    const EffectSite site = {&baseline_.robot(), j, &scale_};
+    const auto& unfit = effect.effect->unfit;
+    if (j == effect.joint || (unfit && !unfit(site).empty())) continue;
+    GapCandidate other = effect;
+    other.joint = j;
+    others.push_back(scatter_of(other));
+  }
+  return PooledScatter(own, others);
 }
 
 JointRows GapRegression::TorqueOf(

@@ -68,7 +68,8 @@ class GapRegression {
   const GapData* reference() const { return reference_.get(); }  // or null
   // Whether it is more than one log, so that it tells how logs differ.
   bool has_several_references() const;
-  // What the reference's logs differ by; of no logs where there is none.
+  // What the reference's logs differ by, pooled over joints; of no logs where
+  // there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.

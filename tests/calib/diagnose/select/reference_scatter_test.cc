@@ -11,12 +11,33 @@ namespace armcal::reference_scatter_test {
 // sixth log differs from the mean of five by sqrt(1 + 1/5) of their deviation.
 TEST(ReferenceScatter, IsJudgedByStudentsT) {
   const double limit = 1 / (4.604 * std::sqrt(1.2));
-  EXPECT_TRUE((ReferenceScatter{5, .99 * limit}.IsBeyond(.99)));
-  EXPECT_FALSE((ReferenceScatter{5, 1.01 * limit}.IsBeyond(.99)));
+  EXPECT_TRUE((ReferenceScatter{5, .99 * limit, 4}.IsBeyond(.99)));
+  EXPECT_FALSE((ReferenceScatter{5, 1.01 * limit, 4}.IsBeyond(.99)));
+}
+
+// Six joints of three logs each: F of 2 and 10 degrees is 4.103 at 5 %
+// (tables), t of 12 degrees 3.055 at 99 % instead of 9.925.
+TEST(ReferenceScatter, IsThatOfAllJoints) {
+  const ReferenceScatter own{3, .2, 2, .1};
+  const std::vector<ReferenceScatter> others(5, {3, .3, 2, .1});
+  const ReferenceScatter pooled = PooledScatter(own, others);
+  EXPECT_EQ(pooled.freedom, 12);
+  EXPECT_NEAR(pooled.stddev, .1 * std::sqrt((5 * 9. + 4) / 6), 1e-12);
+  const double limit = 1 / (3.055 * std::sqrt(4. / 3));
+  EXPECT_TRUE((ReferenceScatter{3, .99 * limit, 12}.IsBeyond(.99)));
+  EXPECT_FALSE((ReferenceScatter{3, 1.01 * limit, 12}.IsBeyond(.99)));
+}
+
+TEST(ReferenceScatter, OfAJointThatScattersMoreIsItsOwn) {
+  const std::vector<ReferenceScatter> others(5, {3, .1, 2, .1});
+  EXPECT_EQ(PooledScatter({3, .20, 2, .1}, others).freedom, 12);
+  EXPECT_EQ(PooledScatter({3, .21, 2, .1}, others).freedom, 2);
+  EXPECT_EQ(PooledScatter({3, .21, 2, .1}, others).stddev, .21);
+  EXPECT_EQ(PooledScatter({3, .1, 2, .1}, {}).freedom, 2);
 }
 
 TEST(ReferenceScatter, OfTwoLogsTellsNothing) {
-  EXPECT_TRUE((ReferenceScatter{2, 10}.IsBeyond(.99)));
+  EXPECT_TRUE((ReferenceScatter{2, 10, 1}.IsBeyond(.99)));
   EXPECT_TRUE(ReferenceScatter().IsBeyond(.99));
 }
 
