@@ -105,6 +105,14 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
+// Springs and what is like them, which have no friction of another day beside
+// them to be less of.
+bool MayHaveWeakened(const Effect& effect) {
+  const auto& terms = effect.stand_ins;
+  return effect.nature == Effect::Nature::kLaw && effect.proportional &&
+         std::count(terms.begin(), terms.end(), JointTerm::kCoulomb) == 0;
+}
+
 // Candidates of one effect at one place, a column per linear parameter, each in
 // units of a size that matters to the motion (EffectParameter::size), so that
 // coefficients of all candidates are of the order of 1. Those of which that
@@ -122,6 +130,7 @@ void ListShapes(const Effect& effect, const EffectSite& site,
     candidate.log = shape.log;
     candidate.tried = tried;
     candidate.prior_penalty = PriorPenalty(effect, since_reference);
+    candidate.is_change = since_reference && MayHaveWeakened(effect);
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
       if (effect.parameters[k].search != Search::kLinear) {
         const double usual = effect.parameters[k].size(site);

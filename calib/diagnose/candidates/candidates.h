@@ -31,10 +31,17 @@ struct GapCandidate {
   bool is_usual = true;    // its shape is the usual one of its effect
   bool is_larger = false;  // than the first size of its effect
   bool is_fitted = false;  // its shape and size are those of a fit
+  // Since a reference, which may have had more of it: a spring's stiffness is
+  // positive, a change of it has either sign.
+  bool is_change = false;
   // Of its coefficient, where its column is the torque at its size and not at
   // sizes far from it.
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
+  bool IsPositive(int parameter) const {
+    return !is_change && effect->parameters[parameter].sign ==
+                             EffectParameter::Sign::kPositive;
+  }
   bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };

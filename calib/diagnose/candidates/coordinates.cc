@@ -45,7 +45,6 @@ std::optional<Coordinate> CoordinateOf(const EffectParameter& parameter,
   switch (parameter.search) {
     case Search::kLinear:
       c.scale = size;
-      if (parameter.sign == EffectParameter::Sign::kPositive) c.low = 0;
       break;
     case Search::kGrid:
     case Search::kRefined:
@@ -104,6 +103,7 @@ std::vector<Coordinate> ListCoordinates(
           CoordinateOf(parameters[k], {&baseline.robot(), effect.joint, &scale},
                        effect.p[k], size);
       if (!c) continue;
+      if (effect.IsPositive(k)) c->low = 0;
       c->effect = e;
       c->parameter = k;
       coordinates.push_back(*c);

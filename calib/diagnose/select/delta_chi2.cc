@@ -14,11 +14,6 @@ using Eigen::VectorXd;
 // is rounding and errors of form.
 constexpr double kVisibleShare = 1e-6;
 
-bool IsPositive(const GapCandidate& candidate, int k) {
-  return candidate.effect->parameters[candidate.linear[k]].sign ==
-         EffectParameter::Sign::kPositive;
-}
-
 // The solution of G x = g over the used columns alone, the normal equations of
 // a fit in which the others have the coefficient 0: their rows and columns of G
 // are replaced by those of the identity.
@@ -108,7 +103,7 @@ double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
   const Own& own = own_[i];
   if (candidate.columns.size() == 1) {
     const double g = conditioned[candidate.columns[0]];
-    const bool wrong = IsPositive(candidate, 0) && g < 0;
+    const bool wrong = candidate.IsPositive(candidate.linear[0]) && g < 0;
     if (!own.used[0] || wrong) return 0;
     const double x =
         std::clamp(g / own.G(0, 0), candidate.least, candidate.most);
@@ -120,7 +115,7 @@ double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
     const VectorXd x = Coefficients(own.G, g, used);
     int wrong = -1, right = 0;
     for (int k = 0; k < x.size(); ++k) {
-      if (!used[k] || !IsPositive(candidate, k)) continue;
+      if (!used[k] || !candidate.IsPositive(candidate.linear[k])) continue;
       if (x[k] >= 0) {
         ++right;
       } else if (wrong < 0 || x[k] < x[wrong]) {
