@@ -8,9 +8,9 @@ namespace armcal {
 // how torque and position are shifted in time), or an effect that the robot is
 // known to have.
 struct BaselineColumn {
-  // kDay: a joint term (friction, the torque's zero) in the diagnosed logs only,
-  // not in a reference.
-  // kDiscrepancy: what models of robots lack as a rule (discrepancy.h).
+  // kDay: a joint term (friction, the torque's zero) in the diagnosed logs
+  // only, not in a reference. kDiscrepancy: what models of robots lack as a
+  // rule (discrepancy.h).
   enum class Kind {
     kInertial,
     kTerm,

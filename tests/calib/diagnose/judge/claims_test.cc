@@ -21,7 +21,7 @@ TEST(IsThereWithoutName, WhereHeldOutDataHaveItAndGainByIt) {
   held_out.after = 4;
   EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
   held_out.after = 1.5;
-  seen.scatter = {5, 1};
+  seen.scatter = {5, 1, 4};
   EXPECT_FALSE(IsThereWithoutName({seen, spoils}, held_out));
 }
 
@@ -94,9 +94,9 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
 }
 
 TEST_F(IsClaimedTest, WhatReferenceLogsDifferByIsNoChange) {
-  found_.scatter = {5, .3};
+  found_.scatter = {5, .3, 4};
   EXPECT_FALSE(Claimed(.99, 1));
-  found_.scatter = {5, .1};
+  found_.scatter = {5, .1, 4};
   EXPECT_TRUE(Claimed(.99, 1));
 }
 
@@ -153,7 +153,7 @@ TEST(IsOneOfFew, WhereFewTogetherWouldBeClaimed) {
   EXPECT_FALSE(IsOneOfFew(found)) << "held-out data do not show it";
   found.any_probability = .75;
   EXPECT_TRUE(IsOneOfFew(found));
-  found.scatter = {100, 1};
+  found.scatter = {100, 1, 99};
   EXPECT_FALSE(IsOneOfFew(found)) << "logs of the reference differ by as much";
   found.scatter = {};
   found.equivalent.resize(3, found.equivalent[0]);

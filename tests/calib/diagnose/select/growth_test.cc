@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -141,6 +142,59 @@ TEST_F(ZerosOfAnotherDayTest, TwoOffsetsAreTwoEffects) {
   EXPECT_THAT(PlacesOf(fit), testing::UnorderedElementsAre("torque_offset@2",
                                                            "torque_offset@5"));
   EXPECT_TRUE(fit.regression().HoldsZeros());
+}
+
+// Friction of all joints that turns over a milliradian instead of at once,
+// which all of them show as torque that comes 17 ms late.
+class FrictionThatLagsTest : public testing::Test {
+ protected:
+  FrictionThatLagsTest() : arm_("PUMA560 6R", 30, .005) {
+    for (Link& link : arm_.robot.links) {
+      link.joint.viscous = 1;
+      link.joint.coulomb = 4;
+    }
+    arm_.SetScale();
+    baseline_.emplace(arm_.robot, BaselineOptions{}, VectorXd::Constant(6, 10));
+  }
+
+  // What is chosen where so much of the friction lags, and torque by so much.
+  std::set<std::string> ChosenOf(double share, double late) {
+    SimulatedRobot robot;
+    robot.robot = arm_.robot;
+    for (int j = 0; j < 6; ++j) {
+      robot.robot.links[j].joint.coulomb *= 1 - share;
+      const EffectSite site = {&arm_.robot, j, &arm_.scale};
+      FindEffect("presliding")
+          ->apply(site, Eigen::Vector2d(4 * share, .001), &robot);
+    }
+    robot.torque_delay = late;
+    RecordedTorque recorded(arm_.robot, baseline_->transitions(), arm_.motion);
+    MatrixXd tau = recorded.nominal() + recorded.Change(robot);
+    AddNoise(&random_, VectorXd::Constant(6, 1), &tau);
+    GapFitOptions options;
+    options.bandwidth_hz = kBandwidth;
+    GapFit fit(*baseline_, options, {MakeSegment(arm_.motion, tau)}, {});
+    fit.Choose();
+    std::set<std::string> chosen;
+    for (const GapCandidate& effect : fit.refined().effects) {
+      chosen.insert(effect.effect->name);
+    }
+    return chosen;
+  }
+
+  EffectArm arm_;
+  std::optional<GapBaseline> baseline_;
+  std::mt19937_64 random_{7};
+};
+
+TEST_F(FrictionThatLagsTest, IsNoDelay) {
+  const std::set<std::string> chosen = ChosenOf(1, 0);
+  EXPECT_EQ(chosen.count("presliding"), 1u);
+  EXPECT_EQ(chosen.count("delay"), 0u);
+}
+
+TEST_F(FrictionThatLagsTest, ADelayIsOne) {
+  EXPECT_THAT(ChosenOf(0, .02), testing::ElementsAre("delay"));
 }
 
 }  // namespace armcal::growth_test
