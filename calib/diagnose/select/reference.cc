@@ -14,10 +14,6 @@ using Eigen::VectorXd;
 
 constexpr int kMostMoves = 8;
 constexpr double kSettled = 1e-4;  // s
-// Standard deviations of a file's numbers; what a reference shows to be farther
-// off (placeholders of friction) is pulled towards them, and settles by being
-// moved again.
-constexpr double kUsual = 3;
 
 }  // namespace
 
@@ -40,8 +36,7 @@ ReferenceModel FitReference(const GapBaseline& baseline, double bandwidth_hz,
     AdvanceTorque(late, segments);
     model.delay += late;
     model.baseline = model.baseline.MovedTo(x);
-    const bool is_within = x.cwiseAbs().maxCoeff() < kUsual;
-    if (std::abs(late) < kSettled && is_within) break;
+    if (std::abs(late) < kSettled) break;
   }
   GapData data(*segments, model.baseline, bandwidth_hz);
   const KnownEffects laws = FindReferenceLaws(model.baseline, *segments, &data);
