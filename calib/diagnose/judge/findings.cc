@@ -135,6 +135,7 @@ FoundEffect Findings::Found(size_t k) const {
   // What swings has a phase of its own in each log.
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);
+    found.odds_in_reference = fit_.regression().OddsInReference(effect);
   }
   found.over_change = OverChangedFriction(fit_, torque_, effect.joint,
                                           found.evidence.gain.value);

@@ -56,6 +56,7 @@ struct FoundEffect {
   bool dissipates = true;
   // How much of it the reference's logs show by themselves.
   ReferenceScatter scatter;
+  double odds_in_reference = 0;  // GapRegression::OddsInReference
   // Whether it is friction of several joints that is that of another day: one
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;

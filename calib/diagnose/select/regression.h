@@ -71,6 +71,9 @@ class GapRegression {
   // What the reference's logs differ by, pooled over joints; of no logs where
   // there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
+  // 2 log of the odds that the reference has the effect as well, at this size,
+  // against that it has none of it; 0 where there is no reference.
+  double OddsInReference(const GapCandidate& effect) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }

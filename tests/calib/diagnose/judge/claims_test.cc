@@ -94,6 +94,10 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
 }
 
 TEST_F(IsClaimedTest, WhatReferenceLogsDifferByIsNoChange) {
+  found_.odds_in_reference = 50;
+  EXPECT_FALSE(Claimed(.99, 1));
+  found_.odds_in_reference = -50;
+  EXPECT_TRUE(Claimed(.99, 1));
   found_.scatter = {5, .3, 4};
   EXPECT_FALSE(Claimed(.99, 1));
   found_.scatter = {5, .1, 4};

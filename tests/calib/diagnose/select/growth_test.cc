@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "calib/diagnose/data/days.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/fit.h"
 #include "model/effects/effects.h"
 #include "tests/fixtures/effect_arm.h"
@@ -113,6 +114,25 @@ class ZerosOfAnotherDayTest : public testing::Test {
   const VectorXd small_ =
       (VectorXd(6) << .15, -.2, .1, -.25, .2, -.15).finished();
 };
+
+// A spring of the diagnosed log, 20 N m/rad on the second joint.
+TEST_F(ZerosOfAnotherDayTest, WhatAReferenceHasAsWellIsToldBefore) {
+  constexpr double kStiffness = 20;
+  GapCandidate spring;
+  spring.effect = FindEffect("spring");
+  spring.joint = 1;
+  spring.p = Eigen::Vector2d(kStiffness, 0);
+  const auto odds = [&](double in_reference) {
+    GapSegment reference = Recorded(1, VectorXd::Zero(6));
+    reference.tau.col(1) += in_reference * arm_.motion.q.col(1);
+    const GapRegression regression(
+        *baseline_, kBandwidth, {Recorded(0, VectorXd::Zero(6))}, {reference});
+    return regression.OddsInReference(spring);
+  };
+  EXPECT_GT(odds(kStiffness), Limits().score);
+  EXPECT_LT(odds(.3 * kStiffness), 0);
+  EXPECT_LT(odds(0), -100);
+}
 
 TEST_F(ZerosOfAnotherDayTest, AreNoEffects) {
   const GapFit fit = Fit(small_);
