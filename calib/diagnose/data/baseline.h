@@ -84,9 +84,8 @@ class GapBaseline {
   // The known effects at x.
   std::vector<KnownEffect> KnownAt(const Eigen::VectorXd& x) const;
   const KnownEffects& known() const { return known_; }
-  int known_begin() const {
-    return known_begin_;
-  }  // the first of their columns
+  // The first of their columns.
+  int known_begin() const { return known_begin_; }
   // By how much recorded torque is later than the motion, s.
   double DelayAt(const Eigen::VectorXd& x) const;
 

@@ -135,7 +135,10 @@ FoundEffect Findings::Found(size_t k) const {
   // What swings has a phase of its own in each log.
   if (effect.log < 0 && !SwingsInTime(*effect.effect)) {
     found.scatter = fit_.ScatterOf(effect);
-    found.odds_in_reference = fit_.regression().OddsInReference(effect);
+    // Of its numbers a reference's model has as much as it shows.
+    if (effect.effect->nature != Effect::Nature::kParameter) {
+      found.odds_in_reference = fit_.regression().OddsInReference(effect);
+    }
   }
   found.over_change = OverChangedFriction(fit_, torque_, effect.joint,
                                           found.evidence.gain.value);
