@@ -108,9 +108,8 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
 // Springs and what is like them, which have no friction of another day beside
 // them to be less of.
 bool MayHaveWeakened(const Effect& effect) {
-  const auto& terms = effect.stand_ins;
   return effect.nature == Effect::Nature::kLaw && effect.proportional &&
-         std::count(terms.begin(), terms.end(), JointTerm::kCoulomb) == 0;
+         !IsCoulombInFiles(effect);
 }
 
 // Candidates of one effect at one place, a column per linear parameter, each in
@@ -160,6 +159,11 @@ double PriorPenalty(const Effect& effect, bool since_reference) {
         2 * Limits().temperature * std::log(Limits().odds_of_same_construction);
   }
   return penalty;
+}
+
+bool IsCoulombInFiles(const Effect& law) {
+  const std::vector<JointTerm>& terms = law.stand_ins;
+  return std::count(terms.begin(), terms.end(), JointTerm::kCoulomb) > 0;
 }
 
 std::string GapCandidate::place() const {

@@ -50,6 +50,9 @@ struct GapCandidate {
 // what changed in an arm since then, which is rarely rebuilt between two logs.
 double PriorPenalty(const Effect& effect, bool since_reference);
 
+// Whether a robot file without such a law has a part of it as Coulomb friction.
+bool IsCoulombInFiles(const Effect& law);
+
 // Whether they are one effect at one place, of which there are not two.
 bool SamePlace(const GapCandidate& a, const GapCandidate& b);
 

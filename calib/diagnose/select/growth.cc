@@ -94,6 +94,24 @@ int Likeliest(const VectorXd& scores, const VectorXd& explained, double all,
                       : best_beyond(-std::numeric_limits<double>::infinity());
 }
 
+// 2 log of the odds of a set with these as well against it alone (`smaller`),
+// less their penalties.
+double ScoreTogether(const GapRegression& regression,
+                     const std::vector<GapCandidate>& candidates,
+                     const std::vector<int>& set, const GapScreen& smaller,
+                     const std::vector<int>& together) {
+  const GapScreen& screen = regression.screen();
+  std::vector<int> more = set;
+  double penalty = 0;
+  for (const int c : together) {
+    if (std::count(set.begin(), set.end(), c) > 0) continue;
+    more.push_back(c);
+    penalty += Penalty(screen, candidates[c]);
+  }
+  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  return CompareLarger(smaller, larger, regression.evidence()).odds - penalty;
+}
+
 // Whether offsets on several joints, none of which could be spared, are
 // together likelier than what is likeliest by itself (`best`, above the
 // threshold). Zeros of torque sensors and drives wander from day to day on all
@@ -106,7 +124,6 @@ bool HaveZerosMoved(const GapRegression& regression,
                     double best) {
   const GapScreen& screen = regression.screen();
   std::vector<int> offsets, more;
-  double penalty = 0;
   const auto is_offset = [&](int c) {
     return candidates[c].effect->joint_term == JointTerm::kOffset;
   };
@@ -114,28 +131,24 @@ bool HaveZerosMoved(const GapRegression& regression,
     if (!is_offset(c)) more.push_back(c);
   }
   for (int c = 0; c < static_cast<int>(candidates.size()); ++c) {
-    if (!is_offset(c)) continue;
-    offsets.push_back(c);
-    if (std::count(set.begin(), set.end(), c) == 0) {
-      penalty += Penalty(screen, candidates[c]);
-    }
+    if (is_offset(c)) offsets.push_back(c);
   }
   if (static_cast<double>(offsets.size()) < Limits().several_joints) {
     return false;
   }
-  more.insert(more.begin(), offsets.begin(), offsets.end());
-  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
-  const EvidenceNoise& noise = regression.evidence();
-  if (CompareLarger(smaller, larger, noise).odds - penalty <
+  if (ScoreTogether(regression, candidates, set, smaller, offsets) <
       std::max(best, options.threshold)) {
     return false;
   }
+  more.insert(more.begin(), offsets.begin(), offsets.end());
+  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  const VectorXd stddev = regression.evidence().stddev();
   int needed = 0;
   for (size_t k = 0; k < offsets.size(); ++k) {
     const GapScreen without =
         screen.Only(ColumnsOf(candidates, Without(more, static_cast<int>(k))));
     const LargerModel with =
-        CompareLarger(without, larger, SettleNoise(without, noise.stddev()));
+        CompareLarger(without, larger, SettleNoise(without, stddev));
     needed +=
         with.odds - Penalty(screen, candidates[offsets[k]]) > options.threshold;
   }
@@ -162,16 +175,8 @@ bool IsOfEachJoint(const GapRegression& regression,
     int& of_joint = best[candidates[k].joint];
     if (of_joint < 0 || scores[k] > scores[of_joint]) of_joint = k;
   }
-  std::vector<int> more = set;
-  double penalty = 0;
-  for (const int k : best) {
-    if (k < 0) continue;
-    more.push_back(k);
-    penalty += Penalty(screen, candidates[k]);
-  }
-  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
-  return CompareLarger(smaller, larger, regression.evidence()).odds - penalty >
-         odds;
+  best.erase(std::remove(best.begin(), best.end(), -1), best.end());
+  return ScoreTogether(regression, candidates, set, smaller, best) > odds;
 }
 
 }  // namespace

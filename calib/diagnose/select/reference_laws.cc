@@ -31,12 +31,10 @@ bool CanBeInReference(const Effect& effect) {
   return effect.nature == Effect::Nature::kLaw && effect.proportional;
 }
 
-// What a robot file without the law has as Coulomb friction, no size of which
-// is per speed.
+// Of which no size is per speed.
 bool IsDryFriction(const Effect& law) {
   using Search = EffectParameter::Search;
-  const auto& terms = law.stand_ins;
-  return std::count(terms.begin(), terms.end(), JointTerm::kCoulomb) > 0 &&
+  return IsCoulombInFiles(law) &&
          std::all_of(law.parameters.begin(), law.parameters.end(),
                      [](const EffectParameter& parameter) {
                        return parameter.search != Search::kLinear ||

@@ -69,15 +69,19 @@ TEST_F(GrowthTest, WhatIsMostOfTheGapIsAmongTheFewThatAreChosen) {
   EXPECT_EQ(std::count_if(effects.begin(), effects.end(), is_it), 1);
 }
 
+void SetFriction(double viscous, double coulomb, Robot* robot) {
+  for (Link& link : robot->links) {
+    link.joint.viscous = viscous;
+    link.joint.coulomb = coulomb;
+  }
+}
+
 // Torques of another day, of which each joint's is off by a small part of the
 // friction, with white noise, and joint 1's by as much more.
 class ZerosOfAnotherDayTest : public testing::Test {
  protected:
   ZerosOfAnotherDayTest() : arm_("PUMA560 6R", 20, .01) {
-    for (Link& link : arm_.robot.links) {
-      link.joint.viscous = 3;
-      link.joint.coulomb = 4;
-    }
+    SetFriction(3, 4, &arm_.robot);
     baseline_.emplace(arm_.robot, BaselineOptions{}, VectorXd::Constant(6, 10));
     baseline_->FreeDays();
   }
@@ -169,10 +173,7 @@ TEST_F(ZerosOfAnotherDayTest, TwoOffsetsAreTwoEffects) {
 class FrictionThatLagsTest : public testing::Test {
  protected:
   FrictionThatLagsTest() : arm_("PUMA560 6R", 30, .005) {
-    for (Link& link : arm_.robot.links) {
-      link.joint.viscous = 1;
-      link.joint.coulomb = 4;
-    }
+    SetFriction(1, 4, &arm_.robot);
     arm_.SetScale();
     baseline_.emplace(arm_.robot, BaselineOptions{}, VectorXd::Constant(6, 10));
   }
