@@ -93,20 +93,35 @@ const SdfFrames::Frame& SdfFrames::Find(const std::string& name,
 }
 
 Isometry3d SdfFrames::PoseOf(const std::string& name, const XmlElement& place) {
+  return PoseOf(name, place, 0);
+}
+
+Isometry3d SdfFrames::PoseOf(const std::string& name, const XmlElement& place,
+                             int depth) {
   if (name == kModel) return Isometry3d::Identity();
   const auto known = known_.find(name);
   if (known != known_.end()) return known->second;
   const Frame& frame = Find(name, place);
-  if (++depth_ > static_cast<int>(frames_.size())) {
+  if (depth >= static_cast<int>(frames_.size())) {
     place.Refuse("", name,
                  "expected poses that are not relative to each other in a "
                  "circle");
   }
-  const Isometry3d X =
-      PoseOf(frame.reference, frame.element) * ReadSdfPose(frame.element);
-  --depth_;
+  const Isometry3d X = PoseOf(frame.reference, frame.element, depth + 1) *
+                       ReadSdfPose(frame.element);
   known_.emplace(name, X);
   return X;
+}
+
+std::string SdfFrames::OwnerOf(const std::string& name) const {
+  std::string at = name;
+  for (size_t steps = 0; steps <= frames_.size(); ++steps) {
+    const auto found = frames_.find(at);
+    if (found == frames_.end()) return "";
+    if (found->second.element.tag() == "link") return at;
+    at = found->second.attached;
+  }
+  return "";
 }
 
 std::string SdfFrames::LinkOf(const std::string& name,

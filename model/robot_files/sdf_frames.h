@@ -22,6 +22,8 @@ class SdfFrames {
   Eigen::Isometry3d PoseOf(const std::string& name, const XmlElement& place);
   // The link that a frame or joint moves with; a link is its own.
   std::string LinkOf(const std::string& name, const XmlElement& place) const;
+  // The same; empty where it moves with no link, as the model's own frames do.
+  std::string OwnerOf(const std::string& name) const;
 
  private:
   struct Frame {
@@ -30,10 +32,12 @@ class SdfFrames {
     std::string attached;   // the link or frame that it moves with
   };
   const Frame& Find(const std::string& name, const XmlElement& place) const;
+  // `depth`: how many poses it is asked for through.
+  Eigen::Isometry3d PoseOf(const std::string& name, const XmlElement& place,
+                           int depth);
 
   std::map<std::string, Frame> frames_;
   std::map<std::string, Eigen::Isometry3d> known_;
-  int depth_ = 0;
 };
 
 // The <pose> of an element, identity where it has none: x y z and roll pitch

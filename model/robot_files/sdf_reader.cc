@@ -75,6 +75,7 @@ class SdfModelReader {
   void ReadLink(XmlElement element);
   void ReadInertial(const XmlElement& inertial, TreeLink* link);
   void ReadJoint(XmlElement element);
+  void ReadFrame(XmlElement element);
   void ReadType(const XmlElement& element, TreeJoint* joint);
   void ReadMotion(const XmlElement& element, const std::string& parent,
                   const std::string& child, TreeJoint* joint);
@@ -254,6 +255,33 @@ void SdfModelReader::AddJoint(const XmlElement& element, TreeJoint joint) {
   tree_.joints.push_back(std::move(joint));
 }
 
+// A frame on a link is a link without inertia that is fixed there: a tip may be
+// called by it, and it may be the tool (TreeLink::is_frame).
+void SdfModelReader::ReadFrame(XmlElement element) {
+  TreeLink frame;
+  frame.name = element.Name("name");
+  frame.line = element.line();
+  frame.is_frame = true;
+  element.SetOwner("frame " + Quoted(frame.name));
+  const std::string link = frames_.OwnerOf(frame.name);
+  if (link.empty()) return;
+  TreeJoint joint;
+  joint.joint.name = frame.name;
+  joint.type = "fixed";
+  joint.is_fixed = true;
+  joint.line = element.line();
+  joint.parent = Number(link);
+  joint.child = static_cast<int>(tree_.links.size());
+  try {
+    joint.X_PJ = frames_.PoseOf(link, element).inverse() *
+                 frames_.PoseOf(frame.name, element);
+  } catch (const InputError& error) {
+    joint.error = error;
+  }
+  tree_.links.push_back(std::move(frame));
+  AddJoint(element, std::move(joint));
+}
+
 void SdfModelReader::AddCouplings() {
   for (const Loop& loop : loops_) {
     tree_.couplings.push_back(
@@ -285,6 +313,7 @@ RobotTree SdfModelReader::Read(const Vector3d& gravity) {
   tree_.links.push_back(std::move(world));
   for (const XmlElement& link : model_.Children("link")) ReadLink(link);
   for (const XmlElement& joint : model_.Children("joint")) ReadJoint(joint);
+  for (const XmlElement& frame : model_.Children("frame")) ReadFrame(frame);
   AddCouplings();
   if (tree_.links.size() == 1) {
     model_.Refuse("", "", "expected at least one <link>");

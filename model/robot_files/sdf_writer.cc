@@ -153,8 +153,11 @@ std::string MakeSdf(const RobotDescription& description) {
             before < 0 ? base : robot.links[before].name, model);
   }
   if (!robot.tool_name.empty()) {
-    AddPose(robot.X_LT, robot.links.back().name,
-            AddNamed("frame", robot.tool_name, model));
+    // What a frame is attached to moves it; `relative_to` alone only says where
+    // it stands at the zero position (SDFormat, "Pose frame semantics").
+    XMLElement* const tool = AddNamed("frame", robot.tool_name, model);
+    tool->SetAttribute("attached_to", robot.links.back().name.c_str());
+    AddPose(robot.X_LT, robot.links.back().name, tool);
   }
   return XmlText(document);
 }

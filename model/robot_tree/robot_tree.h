@@ -26,6 +26,9 @@ struct TreeLink {
   std::vector<int> child_joints;
   std::vector<std::string> notes;  // for Robot::notes, if the robot has it
   bool is_held = false;  // a joint that is held puts it where it is: optional
+  // A frame that the file names on a link, no body: the tool where its name is
+  // asked for, or where it is all that stands on the last link.
+  bool is_frame = false;
 };
 
 // A joint's position as that of another: factor * q + offset.

@@ -109,7 +109,9 @@ void NoteGroup(const RobotTree& tree, const RigidGroup& group, bool is_base,
   std::vector<std::string> fixed, held, massive;
   for (size_t i = 0; i < group.links.size(); ++i) {
     const TreeLink& part = tree.links[group.links[i]];
-    if (i > 0) (part.is_held ? held : fixed).push_back(part.name);
+    if (i > 0 && !part.is_frame) {
+      (part.is_held ? held : fixed).push_back(part.name);
+    }
     if (part.has_inertial) massive.push_back(part.name);
     if (is_base) continue;
     notes->insert(notes->end(), part.notes.begin(), part.notes.end());
@@ -150,14 +152,25 @@ void NoteDropped(const RobotTree& tree, const RigidGroup& group,
   }
 }
 
+// What nothing stands on of the group's links, but for its head: of links that
+// are bodies, or where there are none, of frames.
+std::vector<int> FixedLeaves(const RobotTree& tree, const RigidGroup& group) {
+  std::vector<int> bodies, frames;
+  for (const int link : group.links) {
+    const TreeLink& part = tree.links[link];
+    const bool carries = std::any_of(
+        part.child_joints.begin(), part.child_joints.end(),
+        [&](int j) { return !tree.links[tree.joints[j].child].is_frame; });
+    if (carries || part.is_held || link == group.links.front()) continue;
+    (part.is_frame ? frames : bodies).push_back(link);
+  }
+  return bodies.empty() ? frames : bodies;
+}
+
 // The tool frame: the tip the user names, else the only fixed leaf there is.
 void SetTool(const RobotTree& tree, const RigidGroup& last,
              const std::optional<int>& named_tip, Robot* robot) {
-  std::vector<int> leaves;
-  for (const int link : last.links) {
-    const TreeLink& part = tree.links[link];
-    if (part.child_joints.empty() && !part.is_held) leaves.push_back(link);
-  }
+  const std::vector<int> leaves = FixedLeaves(tree, last);
   int tool = last.links.front();
   if (named_tip) {
     tool = *named_tip;

@@ -105,6 +105,32 @@ std::string Refusal(const std::string& text) {
   return "";
 }
 
+// A frame on a link can be a tip, and is the tool where it stands alone on the
+// last link. By hand: link b's y is the model's -x, which at q = pi/2 about y
+// is z; a frame 0.2 m along it is then above the link.
+TEST(SdfReader, FramesOnLinks) {
+  const std::string frame =
+      "<frame name='tcp' attached_to='b'><pose>0 .2 0 0 0 0</pose></frame>";
+  const std::string arm = Changed("</model>", frame + "</model>");
+  for (const std::string tip : {"", "tcp"}) {
+    RobotReaderOptions options;
+    options.tip = tip;
+    const Robot robot = Read(arm, options);
+    EXPECT_EQ(robot.tool_name, "tcp");
+    const VectorXd q = VectorXd::Constant(1, M_PI / 2);
+    EXPECT_LE((ToolPose(robot, q).translation() - Vector3d(1, 0, 2.2)).norm(),
+              1e-14);
+  }
+  EXPECT_EQ(Read(Changed("</model>", frame + "<frame name='camera' "
+                                             "attached_to='b'/></model>"))
+                .tool_name,
+            "");
+  EXPECT_THAT(Refusal(Changed("</model>",
+                              "<frame name='tcp' attached_to='b'><pose "
+                              "relative_to='c'/></frame></model>")),
+              HasSubstr("found 'c': expected a link, joint or frame"));
+}
+
 TEST(SdfReader, LoopsAreRefused) {
   EXPECT_THAT(
       Refusal(Changed("</model>",
