@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "model/robot_files/sdf_frames.h"
+#include "model/robot_files/sdf_inertial.h"
+#include "model/robot_files/sdf_values.h"
 #include "model/robot_tree/robot_tree.h"
 #include "model/robot_tree/tree_robot.h"
 #include "model/text/input_text.h"
@@ -21,37 +23,6 @@ using Eigen::Vector3d;
 // SDF writes what is not limited as 1e16 or inf, and as -1 for efforts and
 // velocities.
 constexpr double kUnlimited = 1e15;
-
-double NumberOf(const XmlElement& element, const std::string& unit) {
-  double value = 0;
-  const std::string text = element.Content();
-  const std::string why = WhyNotNumbers(text, 1, unit, &value);
-  if (!why.empty()) element.Refuse("", text, why);
-  return value;
-}
-
-double NumberOr(const XmlElement& owner, const char* tag,
-                const std::string& unit, double absent) {
-  const auto child = owner.Child(tag);
-  return child ? NumberOf(*child, unit) : absent;
-}
-
-double NonNegativeOr0(const XmlElement& owner, const char* tag,
-                      const std::string& unit) {
-  const double value = NumberOr(owner, tag, unit, 0);
-  if (value >= 0) return value;
-  owner.RequiredChild(tag).Refuse(
-      "", NumberText(value),
-      "expected a number in " + unit + " that is not negative");
-}
-
-Vector3d VectorOf(const XmlElement& element, const std::string& unit) {
-  Vector3d v;
-  const std::string text = element.Content();
-  const std::string why = WhyNotNumbers(text, 3, unit, v.data());
-  if (!why.empty()) element.Refuse("", text, why);
-  return v;
-}
 
 // Infinite where the file has none, or a number that says so.
 double LimitOr(const XmlElement& limit, const char* tag, double absent) {
@@ -73,7 +44,6 @@ class SdfModelReader {
 
  private:
   void ReadLink(XmlElement element);
-  void ReadInertial(const XmlElement& inertial, TreeLink* link);
   void ReadJoint(XmlElement element);
   void ReadFrame(XmlElement element);
   void ReadType(const XmlElement& element, TreeJoint* joint);
@@ -100,27 +70,13 @@ class SdfModelReader {
   std::vector<Loop> loops_;
 };
 
-void SdfModelReader::ReadInertial(const XmlElement& inertial, TreeLink* link) {
-  const double mass = NonNegativeOr0(inertial, "mass", "kg");
-  const XmlElement inertia = inertial.RequiredChild("inertia");
-  const auto get = [&](const char* tag, double absent) {
-    return NumberOr(inertia, tag, "kg m^2", absent);
-  };
-  Matrix3d I;
-  const double xy = get("ixy", 0), xz = get("ixz", 0), yz = get("iyz", 0);
-  I << get("ixx", 1), xy, xz, xy, get("iyy", 1), yz, xz, yz, get("izz", 1);
-  SetInertial(mass, I, ReadSdfPose(inertial), link);
-}
-
 void SdfModelReader::ReadLink(XmlElement element) {
   TreeLink link;
   link.name = element.Name("name");
   link.line = element.line();
   element.SetOwner("link " + Quoted(link.name));
   try {
-    if (const auto inertial = element.Child("inertial")) {
-      ReadInertial(*inertial, &link);
-    }
+    ReadSdfInertial(element, &link);
   } catch (const InputError& error) {
     link.error = error;
   }
@@ -143,11 +99,11 @@ void SdfModelReader::ReadType(const XmlElement& element, TreeJoint* joint) {
 void SdfModelReader::ReadAxis(const XmlElement& axis, const Matrix3d& R_MJ,
                               TreeJoint* joint) {
   const XmlElement xyz = axis.RequiredChild("xyz");
-  Vector3d v = VectorOf(xyz, "");
+  Vector3d v = SdfVector(xyz, "");
   if (xyz.Has("expressed_in") && !xyz.Text("expressed_in").empty()) {
     v = R_MJ.transpose() *
         (frames_.PoseOf(xyz.Text("expressed_in"), xyz).linear() * v);
-  } else if (NumberOr(axis, "use_parent_model_frame", "", 0) != 0) {
+  } else if (SdfNumberOr(axis, "use_parent_model_frame", "", 0) != 0) {
     v = R_MJ.transpose() * v;  // before SDF 1.7
   }
   if (v.stableNorm() < kShortestAxis) {
@@ -180,10 +136,10 @@ void SdfModelReader::ReadDynamics(const XmlElement& axis, TreeJoint* joint) {
   const auto dynamics = axis.Child("dynamics");
   if (!dynamics) return;
   const std::string unit = EffortUnit(joint->joint.type);
-  joint->joint.viscous = NonNegativeOr0(
-      *dynamics, "damping", unit + " s/" + PositionUnit(joint->joint.type));
-  joint->joint.coulomb = NonNegativeOr0(*dynamics, "friction", unit);
-  if (NumberOr(*dynamics, "spring_stiffness", "", 0) == 0) return;
+  joint->joint.viscous = SdfNonNegativeOr(
+      *dynamics, "damping", unit + " s/" + PositionUnit(joint->joint.type), 0);
+  joint->joint.coulomb = SdfNonNegativeOr(*dynamics, "friction", unit, 0);
+  if (SdfNumberOr(*dynamics, "spring_stiffness", "", 0) == 0) return;
   joint->notes.push_back("the spring of joint " + Quoted(joint->joint.name) +
                          " is not used: armcal's joints have none");
 }
@@ -201,9 +157,10 @@ void SdfModelReader::ReadMotion(const XmlElement& element,
   ReadAxis(axis, X_MJ.linear(), joint);
   ReadLimit(axis, &joint->joint);
   ReadDynamics(axis, joint);
-  const double ratio = NumberOr(element, "drake:gear_ratio", "", 1);
+  const double ratio = SdfNumberOr(element, "drake:gear_ratio", "", 1);
   joint->joint.armature =
-      NonNegativeOr0(element, "drake:rotor_inertia", "kg m^2") * ratio * ratio;
+      SdfNonNegativeOr(element, "drake:rotor_inertia", "kg m^2", 0) * ratio *
+      ratio;
 }
 
 std::string SdfModelReader::End(const XmlElement& joint,
@@ -335,7 +292,7 @@ RobotTree SdfModelReader::Read(const Vector3d& gravity) {
 
 Vector3d GravityOf(const XmlElement& world) {
   const auto gravity = world.Child("gravity");
-  return gravity ? VectorOf(*gravity, "m/s^2") : Vector3d(0, 0, -9.8);
+  return gravity ? SdfVector(*gravity, "m/s^2") : Vector3d(0, 0, -9.8);
 }
 
 void RefuseOthers(const XmlElement& holder) {

@@ -53,9 +53,11 @@ XMLElement* AddNamed(const char* tag, const std::string& name,
   return element;
 }
 
+// Of a link without mass zeros, which Drake takes: left out, they would be
+// SDF's defaults, 1 kg and 1 kg m^2 (SDFormat specification, inertial.sdf).
 void AddSdfInertial(const InertialParameters& V, XMLElement* link) {
   Isometry3d X_LI = Isometry3d::Identity();
-  X_LI.translation() = V.first_moment / V.mass;
+  if (V.mass > 0) X_LI.translation() = V.first_moment / V.mass;
   const Matrix3d I = V.ReexpressIn(X_LI.inverse()).inertia;
   XMLElement* inertial = link->InsertNewChildElement("inertial");
   AddPose(X_LI, "", inertial);
@@ -102,7 +104,8 @@ void AddLink(const Link& link, const JointDrive& drive,
              const std::string& parent, XMLElement* model) {
   XMLElement* element = AddNamed("link", link.name, model);
   AddPose(link.X_PL(0), parent, element);
-  if (link.inertial.mass > 0) AddSdfInertial(link.inertial, element);
+  AddSdfInertial(link.inertial.mass > 0 ? link.inertial : InertialParameters(),
+                 element);
   XMLElement* joint = AddJoint(link.joint.name, JointTypeName(link.joint.type),
                                parent, link.name, model);
   const Isometry3d X_LM = link.X_ML.inverse();
@@ -129,6 +132,16 @@ std::vector<std::string> SdfLosses(const RobotDescription& description) {
         "SDF has no field for armature but drake:rotor_inertia, which Drake "
         "alone reads");
     break;
+  }
+  std::string massless;
+  for (const Link& link : description.robot.links) {
+    if (link.inertial.mass > 0) continue;
+    massless += (massless.empty() ? "" : ", ") + link.name;
+  }
+  if (!massless.empty()) {
+    losses.push_back("links without mass have mass 0 in the file (" + massless +
+                     "), as SDF's default is 1 kg; Drake takes that, other "
+                     "simulators may not");
   }
   return losses;
 }
