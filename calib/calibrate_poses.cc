@@ -57,7 +57,7 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
   if (result.solved) {
     summary.robot = result.robot;
     summary.files.push_back(
-        {"robot.urdf", RobotUrdf(options.source, result.robot, true)});
+        {"robot.urdf", RobotUrdf(options.source, result.robot, true).text});
     summary.report +=
         AddExports({result.robot, {}}, formats, &json, &summary.files);
     AddCameras(*options.poses, result, &summary.files);

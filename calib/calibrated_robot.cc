@@ -22,7 +22,7 @@ void AddDrawnRobots(const NonlinearCalibration& refined,
       summary->files.push_back({SampleFile(file, r, options.samples), text});
     };
     add("robot.urdf",
-        RobotUrdf(options.source, robot, refined.refined_geometry));
+        RobotUrdf(options.source, robot, refined.refined_geometry).text);
     for (const RobotFormat* format : formats) {
       add(format->file, format->write({robot, {}, controller}));
     }
@@ -37,9 +37,9 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
                         const CalibrateOptions& options, nlohmann::json* json,
                         CalibrateSummary* summary) {
   summary->robot = refined.robot;
-  summary->files.push_back(
-      {"robot.urdf",
-       RobotUrdf(options.source, refined.robot, refined.refined_geometry)});
+  const RobotUrdfFile urdf =
+      RobotUrdf(options.source, refined.robot, refined.refined_geometry);
+  summary->files.push_back({"robot.urdf", urdf.text});
   if (options.source.urdf) {
     summary->files.push_back(
         {"robot_without_meshes.urdf", MakeUrdf(refined.robot)});
@@ -48,7 +48,7 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
       {"parameters_covariance.csv", ParametersCovarianceCsv(refined)});
   summary->files.push_back(
       {"parameters_posterior.csv", ParametersPosteriorCsv(refined)});
-  for (const std::string& loss : UrdfLosses(refined.robot)) {
+  for (const std::string& loss : urdf.losses) {
     summary->report += "robot.urdf  " + loss + "\n";
   }
   summary->report +=

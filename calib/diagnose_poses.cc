@@ -68,7 +68,8 @@ void AddCorrection(const PoseMeasurements& measured,
         {"correction.csv", CorrectionCsv(correction.arm, correction.table)});
   }
   summary->files.push_back(
-      {"robot.urdf", RobotUrdf(options.source, correction.arm.links(), true)});
+      {"robot.urdf",
+       RobotUrdf(options.source, correction.arm.links(), true).text});
 }
 
 }  // namespace

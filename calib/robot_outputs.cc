@@ -91,10 +91,16 @@ std::string AddSamples(int count, nlohmann::json* json) {
       count);
 }
 
-std::string RobotUrdf(const RobotSource& source, const Robot& robot,
-                      bool geometry) {
-  return source.urdf ? UpdateUrdf(*source.urdf, robot, geometry, source.base)
-                     : MakeUrdf(robot);
+RobotUrdfFile RobotUrdf(const RobotSource& source, const Robot& robot,
+                        bool geometry) {
+  RobotUrdfFile file{"", UrdfLosses(robot)};
+  if (!source.urdf) {
+    file.text = MakeUrdf(robot);
+    return file;
+  }
+  file.text =
+      UpdateUrdf(*source.urdf, robot, geometry, source.base, &file.losses);
+  return file;
 }
 
 }  // namespace armcal

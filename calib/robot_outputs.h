@@ -37,8 +37,13 @@ std::string SampleFile(const std::string& file, int r, int count);
 std::string AddSamples(int count, nlohmann::json* json);
 
 // robot.urdf: a URDF that the robot was read from with its numbers changed, its
-// origins too with `geometry`; else the chain alone.
-std::string RobotUrdf(const RobotSource& source, const Robot& robot,
-                      bool geometry);
+// origins too with `geometry`; else the chain alone. And what it cannot say of
+// the robot.
+struct RobotUrdfFile {
+  std::string text;
+  std::vector<std::string> losses;
+};
+RobotUrdfFile RobotUrdf(const RobotSource& source, const Robot& robot,
+                        bool geometry);
 
 }  // namespace armcal

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/robot_files/inertia_split.h"
 #include "model/robot_files/urdf_tree.h"
 #include "model/robot_files/urdf_values.h"
 #include "model/robot_tree/chosen_joints.h"
+#include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 
@@ -27,35 +29,80 @@ XMLElement* Find(XMLElement* root, const char* tag, const std::string& name) {
   return nullptr;
 }
 
-// Takes the inertia of the group's other links away that the file says of them.
-void RemoveInertials(const RobotTree& tree, const RigidGroup& group,
-                     XMLElement* root) {
+// The links of the group beside its head that the file gives inertia, by number
+// in the group: those that are fixed there, or those that held joints move.
+std::vector<size_t> PartsOf(const RobotTree& tree, const RigidGroup& group,
+                            bool held) {
+  std::vector<size_t> parts;
   for (size_t i = 1; i < group.links.size(); ++i) {
-    XMLElement* fixed = Find(root, "link", tree.links[group.links[i]].name);
-    XMLElement* inertial = fixed->FirstChildElement("inertial");
-    if (inertial != nullptr) fixed->DeleteChild(inertial);
+    const TreeLink& link = tree.links[group.links[i]];
+    if (link.has_inertial && !link.error && link.is_held == held) {
+      parts.push_back(i);
+    }
   }
+  return parts;
+}
+
+// Their inertia together, about the head's origin and in its frame.
+InertialParameters SumOf(const RobotTree& tree, const RigidGroup& group,
+                         const std::vector<size_t>& parts) {
+  InertialParameters sum;
+  for (const size_t i : parts) {
+    sum += tree.links[group.links[i]].inertial.ReexpressIn(group.X_HLs[i]);
+  }
+  return sum;
+}
+
+// What of the calibrated link the file cannot have as it is. Empty: nothing.
+std::string SplitLoss(const RobotTree& tree, const RigidGroup& group,
+                      const InertialParameters& left, const InertiaSplit& split,
+                      const std::vector<size_t>& held) {
+  const std::string head = tree.links[group.links.front()].name;
+  const std::string why = WhyUnphysical(split.head);
+  if (!why.empty()) {
+    return "link " + head + " has an inertia that no body has (" + why + ")";
+  }
+  if (split.held_share == 1) return "";
+  std::vector<std::string> names;
+  for (const size_t i : held) names.push_back(tree.links[group.links[i]].name);
+  return "links that held joints move (" + JoinNames(names) + ") have " +
+         Format("%.3g", split.held_share) +
+         " times the file's mass and inertia: beside all of it no body could "
+         "be what is left of the calibrated link " +
+         head + " (" + WhyUnphysical(left) + ")";
 }
 
 // The link gets what the links that are fixed to it, or held on it, do not have
-// already.
+// already (SplitInertia).
 void DistributeInertia(const InertialParameters& total, const RobotTree& tree,
-                       int head, XMLElement* root) {
+                       int head, XMLElement* root,
+                       std::vector<std::string>* losses) {
   const RigidGroup group = FindGroup(tree, head);
-  XMLElement* link = Find(root, "link", tree.links[head].name);
-  Vector10d rest = total.ToVector();
-  for (size_t i = 1; i < group.links.size(); ++i) {
-    const TreeLink& fixed = tree.links[group.links[i]];
-    if (fixed.error) continue;
-    rest -= fixed.inertial.ReexpressIn(group.X_HLs[i]).ToVector();
+  const auto element = [&](size_t i) {
+    return Find(root, "link", tree.links[group.links[i]].name);
+  };
+  const std::vector<size_t> fixed = PartsOf(tree, group, false);
+  const std::vector<size_t> held = PartsOf(tree, group, true);
+  const InertialParameters of_held = SumOf(tree, group, held);
+  const InertiaSplit split =
+      SplitInertia(total, SumOf(tree, group, fixed), of_held);
+  SetInertial(split.head, element(0));
+  for (const size_t i : fixed) {
+    if (split.fixed_keep) break;
+    element(i)->DeleteChild(element(i)->FirstChildElement("inertial"));
   }
-  const InertialParameters remaining = InertialParameters::FromVector(rest);
-  if (WhyUnphysical(remaining).empty()) {
-    SetInertial(remaining, link);
-    return;
+  for (const size_t i : held) {
+    if (split.held_share == 1) break;
+    SetInertial(
+        InertialParameters::FromVector(
+            split.held_share * tree.links[group.links[i]].inertial.ToVector()),
+        element(i));
   }
-  RemoveInertials(tree, group, root);
-  SetInertial(total, link);
+  const std::string loss = SplitLoss(
+      tree, group,
+      InertialParameters::FromVector(total.ToVector() - of_held.ToVector()),
+      split, held);
+  if (!loss.empty() && losses != nullptr) losses->push_back(loss);
 }
 
 int FindJoint(const std::string& path, const RobotTree& tree,
@@ -123,7 +170,8 @@ void SetGeometry(const std::string& path, const Robot& robot,
 }  // namespace
 
 std::string UpdateUrdf(const Document& file, const Robot& robot, bool geometry,
-                       const std::string& base) {
+                       const std::string& base,
+                       std::vector<std::string>* losses) {
   const std::string& path = file.name();
   RobotTree tree = ReadUrdfTree(file);
   std::vector<int> joints;
@@ -148,8 +196,8 @@ std::string UpdateUrdf(const Document& file, const Robot& robot, bool geometry,
   for (size_t i = 0; i < joints.size(); ++i) {
     const Link& link = robot.links[i];
     if (link.inertial.mass > 0) {
-      DistributeInertia(link.inertial, tree, tree.joints[joints[i]].child,
-                        root);
+      DistributeInertia(link.inertial, tree, tree.joints[joints[i]].child, root,
+                        losses);
     }
     SetDynamics(link.joint, Find(root, "joint", link.joint.name));
   }

@@ -6,7 +6,9 @@
 #include <filesystem>
 
 #include "model/dynamics/inverse_dynamics.h"
+#include "model/robot_files/urdf_update.h"
 #include "tests/fixtures/nonlinear_runs.h"
+#include "tests/fixtures/urdf_text.h"
 #include "tests/mujoco/calibrated_robot.h"
 #include "tests/mujoco/mujoco_model.h"
 
@@ -82,6 +84,43 @@ TEST(Mujoco, LinksAtTheBoundaryLoad) {
     const auto result = Calibrate(arm, .1, options, &random).physical;
     ASSERT_TRUE(result.solved);
     ExpectSameInMujoco(result.robot);
+  }
+}
+
+// A wrist and a finger of 1 kg on it, both calibrated as 0.8 kg together. The
+// finger is held at 0.7 rad, and is a body that moves to MuJoCo all the same.
+TEST(Mujoco, AHeldFingerKeepsInertia) {
+  using namespace urdf_text;
+  const std::string path = WriteFile(
+      "<robot name='hand'>" + LinkXml("base") + RodXml("arm") +
+          RodXml("wrist") + RodXml("finger") +
+          RodJointXml("ja", "base", "arm", ".2 .3 .1") +
+          RodJointXml("jw", "arm", "wrist", ".1 .2 .3") +
+          RodJointXml("jf", "wrist", "finger", ".2 .3 .1") + "</robot>",
+      "hand.urdf");
+  RobotReaderOptions options;
+  options.tip = "wrist";
+  options.posture = {{"jf", .7}};
+  Robot robot = ReadUrdf(path, options);
+  robot.links[1].inertial = InertialParameters::FromCenterOfMass(
+      .8, {.1, .1, 0}, .01 * Eigen::Matrix3d::Identity());
+  const MujocoModel model =
+      LoadTextInMujoco(UpdateUrdf(path, robot, false), "updated.urdf");
+  ASSERT_NE(model, nullptr);
+  const MujocoData data(mj_makeData(model.get()), mj_deleteData);
+  const int finger = mj_name2id(model.get(), mjOBJ_JOINT, "jf");
+  data->qpos[model->jnt_qposadr[finger]] = .7;
+  const MujocoJoints joints(robot, *model);
+  std::mt19937_64 random(3);
+  for (int k = 0; k < 20; ++k) {
+    const VectorXd q = UniformVector(&random, 2, -3, 3);
+    const VectorXd qd = UniformVector(&random, 2, -2, 2);
+    const VectorXd qdd = UniformVector(&random, 2, -5, 5);
+    joints.SetMotion(q, qd, qdd, data.get());
+    mj_inverse(model.get(), data.get());
+    const VectorXd ours = InverseDynamics(robot, q, qd, qdd);
+    EXPECT_LE((joints.Read(data->qfrc_inverse) - ours).norm(),
+              1e-6 * ours.norm());
   }
 }
 

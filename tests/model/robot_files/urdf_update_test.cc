@@ -125,6 +125,36 @@ TEST(UpdateUrdf, BranchesAndHeldJoints) {
             .05);
 }
 
+// The finger is a body of its own as soon as its joint moves: MuJoCo refused
+// the file in which it had given its inertia away. Together with it the link is
+// what was calibrated, also where the two cannot be so heavy.
+TEST(UpdateUrdf, HeldLinksStayBodies) {
+  const std::string path = WriteFile(TwoArms(), "two.urdf");
+  RobotReaderOptions options;
+  options.tip = "a2,b2";
+  options.posture = {{"f", .7}};
+  Robot robot = ReadUrdf(path, options);
+  robot.links[1].inertial = InertialParameters::FromCenterOfMass(
+      .8, {.1, .1, 0}, .01 * Eigen::Matrix3d::Identity());  // the finger: 1 kg
+  std::vector<std::string> losses;
+  const std::string text = UpdateUrdf(path, robot, false, "", &losses);
+  const std::string written = WriteFile(text, "new.urdf");
+  ExpectSameRobot(robot, ReadUrdf(written, options));
+  options.tip = "finger,b2";
+  options.posture = {};
+  double mass = 0;
+  for (const Link& link : ReadUrdf(written, options).links) {
+    EXPECT_EQ(WhyUnphysical(link.inertial), "") << link.name;
+    if (link.name == "a2" || link.name == "finger") mass += link.inertial.mass;
+  }
+  EXPECT_NEAR(mass, .8, 1e-12);
+  ASSERT_EQ(losses.size(), 1);
+  EXPECT_NE(losses[0].find("links that held joints move (finger) have 0."),
+            std::string::npos)
+      << losses[0];
+  EXPECT_NE(losses[0].find("calibrated link a2"), std::string::npos);
+}
+
 TEST(UpdateUrdf, RefusesAnotherRobotsFile) {
   const std::string path = WriteFile(kFile, "arm.urdf");
   Robot robot = ReadUrdf(path, {});
