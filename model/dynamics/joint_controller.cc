@@ -21,6 +21,12 @@ Eigen::VectorXd JointInertia(const Robot& robot, const Eigen::VectorXd& q) {
 
 }  // namespace
 
+void SetIntegralGain(DriveKind kind, double bandwidth_hz, DriveLaw* law) {
+  const double omega = 2 * M_PI * bandwidth_hz;
+  if (kind == DriveKind::kPd) law->ki = omega / 5 * law->kp;
+  if (kind == DriveKind::kCascade) law->velocity_ki = omega * law->kd;
+}
+
 // Gains for a joint of inertia I as if it were alone: kp = w^2 I and kd = 2 w I
 // put both poles at -w (critical damping), and a slow integral. A cascade has a
 // velocity loop four times as fast as its position loop.
@@ -36,13 +42,12 @@ ControllerOptions DefaultController(const Robot& robot,
     DriveLaw law;
     if (kind == DriveKind::kCascade) {
       law.kd = 4 * omega * inertia[j];
-      law.velocity_ki = omega * law.kd;
       law.position_gain = omega;
     } else {
       law.kp = omega * omega * inertia[j];
       law.kd = 2 * omega * inertia[j];
     }
-    if (kind == DriveKind::kPd) law.ki = omega / 5 * law.kp;
+    SetIntegralGain(kind, bandwidth_hz, &law);
     if (kind == DriveKind::kP) law.velocity_feedforward = 0;
     law.torque_limit = robot.links[j].joint.effort;
     options.drives.push_back(law);

@@ -34,6 +34,13 @@ struct ControllerOptions {
 
 constexpr double kUsualBandwidthHz = 8;
 
+// Sets the integral gain that goes with the law's own other gains, for a loop
+// of bandwidth omega = 2 pi `bandwidth_hz`: of kPd ki = kp omega / 5, whose
+// corner ki / kp lies at a fifth of the bandwidth, where it costs the loop
+// little phase; of kCascade velocity_ki = kd omega, with the corner at the
+// position loop's bandwidth, a fourth of the velocity loop's. kP has none.
+void SetIntegralGain(DriveKind kind, double bandwidth_hz, DriveLaw* law);
+
 // Gains that place each joint's closed loop at `bandwidth_hz` for the mass
 // matrix (armature included) at q: damping ratio 1 of kp and kd; of a cascade a
 // velocity loop four times as fast. Torque limits are the robot's. Only kPd

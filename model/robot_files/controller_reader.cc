@@ -49,6 +49,21 @@ void ReadParameter(const YamlNode& node, const DriveParameter& parameter,
   for (int j = 0; j < n; ++j) options->drives[j].*parameter.value = values[j];
 }
 
+// The gains that the file gives. An integral gain that it does not is that of
+// the gains which the drive then has.
+void ReadDrives(const YamlNode& node, double bandwidth_hz,
+                ControllerOptions* options) {
+  for (const DriveParameter& parameter : DriveParameters()) {
+    ReadParameter(node, parameter, options);
+  }
+  for (DriveLaw& law : options->drives) {
+    DriveLaw usual = law;
+    SetIntegralGain(options->kind, bandwidth_hz, &usual);
+    if (!node.Child("ki")) law.ki = usual.ki;
+    if (!node.Child("velocity_ki")) law.velocity_ki = usual.velocity_ki;
+  }
+}
+
 DriveKind ReadKind(const YamlNode& node) {
   const auto child = node.Child("law");
   if (!child) return DriveKind::kPd;
@@ -73,17 +88,16 @@ ControllerOptions ReadController(const std::string& path, const Robot& robot,
                                  const Eigen::VectorXd& q) {
   const YamlNode node = YamlNode::ReadFile(path);
   node.ExpectKeys(Keys());
-  ControllerOptions options = DefaultController(
-      robot, q, ReadPositive(node, "bandwidth", "Hz", kUsualBandwidthHz),
-      ReadKind(node));
+  const double bandwidth_hz =
+      ReadPositive(node, "bandwidth", "Hz", kUsualBandwidthHz);
+  ControllerOptions options =
+      DefaultController(robot, q, bandwidth_hz, ReadKind(node));
   options.rate_hz = ReadPositive(node, "rate", "Hz", options.rate_hz);
   if (options.rate_hz < 1 || options.rate_hz > kFastestHz) {
     node.RequiredChild("rate").Refuse("expected a rate from 1 to " +
                                       NumberText(kFastestHz) + " Hz");
   }
-  for (const DriveParameter& parameter : DriveParameters()) {
-    ReadParameter(node, parameter, &options);
-  }
+  ReadDrives(node, bandwidth_hz, &options);
   if (const auto child = node.Child("delay")) {
     options.delay = child->NonNegative("s");
     ExpectShort(*child, options.delay);

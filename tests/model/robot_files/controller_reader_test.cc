@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "model/text/input_error.h"
 #include "tests/fixtures/temp_file.h"
 #include "tests/fixtures/two_link_arm.h"
@@ -60,6 +62,21 @@ TEST(ReadController, ReadsADriveOfItsOwnDamping) {
   EXPECT_EQ(Values(options, &DriveLaw::ki), Vector2d(0, 0));
   EXPECT_EQ(Values(options, &DriveLaw::velocity_feedforward), Vector2d(0, 0));
   EXPECT_GT(options.drives[0].kd, 0);
+}
+
+// The integral gain goes with the gains that the file has: ki = kp w / 5, and
+// of a cascade velocity_ki = kd w, w = 2 pi times the bandwidth of 8 or 4 Hz.
+TEST(ReadController, IntegralGainsFollowTheGainsThatAreGiven) {
+  const double w = 2 * M_PI * 8;
+  ControllerOptions options = Read("kp: [300, 20]\nkd: [30, 2]\n");
+  EXPECT_NEAR(options.drives[0].ki, 300 * w / 5, 1e-9);
+  EXPECT_NEAR(options.drives[1].ki, 20 * w / 5, 1e-9);
+  options = Read("bandwidth: 4\nkp: [300, 20]\n");
+  EXPECT_NEAR(options.drives[0].ki, 300 * w / 10, 1e-9);
+  options = Read("law: cascade\nkd: [30, 2]\n");
+  EXPECT_NEAR(options.drives[0].velocity_ki, 30 * w, 1e-9);
+  options = Read("kp: [300, 20]\nki: [0, 7]\n");
+  EXPECT_EQ(Values(options, &DriveLaw::ki), Vector2d(0, 7));
 }
 
 TEST(ReadController, RefusesWhatIsWrong) {
