@@ -93,11 +93,9 @@ std::string AddSamples(int count, nlohmann::json* json) {
 
 RobotUrdfFile RobotUrdf(const RobotSource& source, const Robot& robot,
                         bool geometry) {
-  RobotUrdfFile file{"", UrdfLosses(robot)};
-  if (!source.urdf) {
-    file.text = MakeUrdf(robot);
-    return file;
-  }
+  if (!source.urdf) return {MakeUrdf(robot), UrdfLosses(robot)};
+  RobotUrdfFile file;
+  file.losses = Losses(UpdatedUrdfFormat(), {robot, {}});
   file.text =
       UpdateUrdf(*source.urdf, robot, geometry, source.base, &file.losses);
   return file;

@@ -13,6 +13,7 @@
 #include "model/robot_files/robot_reader.h"
 #include "model/robot_files/sdf_writer.h"
 #include "model/robot_files/urdf_reader.h"
+#include "model/robot_files/urdf_writer.h"
 #include "model/robot_files/yaml_writer.h"
 #include "tests/fixtures/random_motion.h"
 #include "tests/fixtures/temp_file.h"
@@ -168,7 +169,13 @@ TEST(RobotFormat, YamlHoldsAnyName) {
 TEST(RobotFormat, LossesAreWhatTheFormatHasNoFieldFor) {
   RobotDescription description{UrdfArm(), {}};
   description.robot.gravity = {0, 0, -9.81};
-  EXPECT_THAT(Losses(Format("urdf"), description), IsEmpty());
+  const std::string limits =
+      "URDF requires limits; where the robot has none they are wide (effort "
+      "1e+06 of turn; velocity 1000 of turn)";
+  const std::string masses =
+      "MuJoCo refuses a URDF whose links move without mass (wrist)";
+  EXPECT_THAT(Losses(Format("urdf"), description), ElementsAre(limits, masses));
+  EXPECT_THAT(Losses(UpdatedUrdfFormat(), description), IsEmpty());
   EXPECT_THAT(Losses(Format("yaml"), description), IsEmpty());
   EXPECT_THAT(Losses(Format("mjcf"), description),
               ElementsAre("MJCF has no field for velocity limits (shoulder 3, "
@@ -182,7 +189,8 @@ TEST(RobotFormat, LossesAreWhatTheFormatHasNoFieldFor) {
               ElementsAre("URDF has no field for constant torque (shoulder 2)",
                           "URDF has no field for springs (rail 50)",
                           "URDF has no field for torque given per torque asked "
-                          "(rail 0.9)"));
+                          "(rail 0.9)",
+                          limits, masses));
   EXPECT_THAT(Losses(Format("sdf"), description),
               Contains(HasSubstr("constant torque (shoulder 2)")));
   EXPECT_THAT(Losses(Format("sdf"), description),

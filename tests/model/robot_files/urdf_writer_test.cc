@@ -1,7 +1,12 @@
 #include "model/robot_files/urdf_writer.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "model/robot/kinematics.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
 #include "model/robot_files/yaml_reader.h"
 #include "tests/fixtures/same_robot.h"
 
@@ -18,6 +23,22 @@ void AddToolAndFriction(Robot* robot) {
     link.joint.coulomb = 1 / 3.;
     link.joint.upper = 8;  // more than a turn
   }
+}
+
+// Three joints with limits, and links with mass whose frames are at them.
+Robot Limited() {
+  std::mt19937_64 random(6);
+  Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  for (Link& link : robot.links) {
+    link.X_PF = link.X_PF * link.X_ML;
+    link.X_ML.setIdentity();
+    link.joint.lower = -2;
+    link.joint.upper = 2;
+    link.joint.velocity = 3;
+    link.joint.effort = 100;
+  }
+  return robot;
 }
 
 TEST(MakeUrdf, StandardDhRobotsComeBack) {
@@ -61,8 +82,64 @@ TEST(MakeUrdf, NamesDoNotClash) {
   ExpectSameRobot(robot, ReadBack(MakeUrdf(robot), robot.gravity));
 }
 
-TEST(UrdfLosses, NamesWhatUrdfCannotSay) {
+// The second joint of an MJCF body need not be at the body's frame. Where
+// MuJoCo 4.0.0 has that frame, which is what armcal has as the tool.
+TEST(MakeUrdf, AFrameThatIsNotAtItsJointStays) {
+  const Robot robot = ReadMjcf(
+      {"x.xml",
+       "<mujoco><worldbody><body name='l1' pos='0 0 .2'>"
+       "<joint name='q1' axis='0 .3 1'/><inertial pos='.02 .01 .1' mass='3' "
+       "diaginertia='.03 .025 .02'/><body name='l2' pos='.1 0 .3'>"
+       "<joint name='q2' axis='0 1 0' pos='.05 .02 .01'/><inertial "
+       "pos='.15 .02 .01' mass='2' diaginertia='.005 .03 .031'/></body></body>"
+       "</worldbody></mujoco>"},
+      {});
+  const Robot again = ReadBack(MakeUrdf(robot), robot.gravity);
+  EXPECT_EQ(again.links[1].name, "l2");
+  EXPECT_EQ(again.tool_name, "l2_frame");
+  const Eigen::Isometry3d X_WT = ToolPose(again, Eigen::Vector2d(.7, -.4));
+  EXPECT_LE((X_WT.translation() - Eigen::Vector3d(0.13455760245102108,
+                                                  0.08475081238166847,
+                                                  0.4558932292300381))
+                .norm(),
+            1e-12);
+  EXPECT_NEAR(X_WT.linear()(0, 0), 0.7765533221565338, 1e-12);
+  EXPECT_NEAR(X_WT.linear()(2, 1), 0.06472233377491143, 1e-12);
+  EXPECT_THAT(UrdfLosses(robot),
+              testing::Contains(
+                  "URDF has the frames of links at their joints; those that "
+                  "the robot has elsewhere are links of their own (l2_frame)"));
+}
+
+// A tool stands on such a frame, or the chain would have two ends.
+TEST(MakeUrdf, AToolOnAFrameThatIsNotAtItsJoint) {
+  std::mt19937_64 random(4);
   Robot robot = SampleRobot("3R elbow");
+  SetRandomInertials(&random, &robot);
+  AddToolAndFriction(&robot);
+  const Robot again = ReadBack(MakeUrdf(robot), robot.gravity);
+  EXPECT_EQ(again.tool_name, "tcp");
+  ExpectSameRobot(robot, again);
+}
+
+TEST(UrdfLosses, LimitsAndMasses) {
+  Robot robot = Limited();
+  EXPECT_TRUE(UrdfLosses(robot).empty());
+  robot.links[0].joint.effort = std::numeric_limits<double>::infinity();
+  robot.links[1].joint.velocity = std::numeric_limits<double>::infinity();
+  robot.links[2].joint.upper = std::numeric_limits<double>::infinity();
+  robot.links[1].inertial = InertialParameters();
+  EXPECT_EQ(
+      UrdfLosses(robot),
+      (std::vector<std::string>{
+          "URDF requires limits; where the robot has none they are wide "
+          "(effort 1e+06 of joint1; velocity 1000 of joint2; positions "
+          "within 6.283 of joint3)",
+          "MuJoCo refuses a URDF whose links move without mass (link2)"}));
+}
+
+TEST(UrdfLosses, NamesWhatUrdfCannotSay) {
+  Robot robot = Limited();
   EXPECT_TRUE(UrdfLosses(robot).empty());
   robot.links[1].joint.armature = .5;
   robot.links[2].joint.offset = -2;
@@ -78,7 +155,7 @@ TEST(UrdfLosses, NamesWhatUrdfCannotSay) {
 // One sentence for all joints of a kind, four digits, signs and small values
 // as they are.
 TEST(UrdfLosses, AreOneSentencePerKind) {
-  Robot robot = SampleRobot("3R elbow");
+  Robot robot = Limited();
   robot.links[0].joint.armature = 8.34567;
   robot.links[1].joint.armature = 12345.6;
   robot.links[2].joint.armature = 2.00004e-7;
