@@ -120,7 +120,8 @@ std::string WhyNotRefined(const Robot& robot,
     return "it takes the weak form";
   }
   for (const Link& link : robot.links) {
-    if (link.inertial.mass > 0) continue;
+    // A link between two joints of one body is held at no mass (ArmUnknowns).
+    if (link.inertial.mass > 0 || IsDeclaredMassless(link)) continue;
     return "the robot file gives link " + link.name + " no mass to start from";
   }
   return "";

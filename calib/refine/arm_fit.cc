@@ -20,17 +20,20 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The parameter blocks of a Ceres problem.
+// The parameter blocks of a Ceres problem. Links that are no bodies have none:
+// they stay as they are, at 0.
 struct Blocks {
-  explicit Blocks(const ArmValues& values) : value(values) {
-    for (Eigen::Index k = 0; k < values.links.size(); k += 10) {
+  Blocks(const std::vector<int>& of, const ArmValues& values)
+      : value(values), bodies(of) {
+    for (const int i : bodies) {
       links.push_back(
-          LogCholeskyFromInertial(values.links.segment<10>(k), 0, 0));
+          LogCholeskyFromInertial(values.links.segment<10>(10 * i), 0, 0));
     }
   }
   ArmValues Values() {
-    for (size_t i = 0; i < links.size(); ++i) {
-      InertialFromLogCholesky(links[i].data(), value.links.data() + 10 * i);
+    for (size_t b = 0; b < bodies.size(); ++b) {
+      InertialFromLogCholesky(links[b].data(),
+                              value.links.data() + 10 * bodies[b]);
     }
     return value;
   }
@@ -40,8 +43,21 @@ struct Blocks {
                        [](const Vector10d& c) { return c.allFinite(); });
   }
   ArmValues value;  // links: only as they were
-  std::vector<Vector10d> links;
+  const std::vector<int>& bodies;
+  std::vector<Vector10d> links;  // of each body
 };
+
+// The columns of R up to `end`, a number of unknown, without those of links
+// that are no bodies: they act on zeros.
+MatrixXd ColumnsOfBodies(const ArmUnknowns& unknowns, const MatrixXd& R,
+                         int end) {
+  std::vector<int> columns;
+  for (const int i : unknowns.bodies()) {
+    for (int k = 0; k < 10; ++k) columns.push_back(10 * i + k);
+  }
+  for (int k = unknowns.terms_begin(); k < end; ++k) columns.push_back(k);
+  return R(Eigen::all, columns);
+}
 
 // Keeps the entries of a block that are not free. A block without free entries
 // is constant, as a manifold needs at least one direction.
@@ -100,10 +116,11 @@ void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
   all.insert(all.end(),
              {v.terms.data(), v.tilt.data(), v.poses.geometry.data()});
   problem->AddResidualBlock(
-      new TorqueFactorResidual(equations.R.leftCols(unknowns.other_begin()),
-                               equations.z, unknowns.num_links(),
-                               {static_cast<int>(v.terms.size()), 2,
-                                static_cast<int>(v.poses.geometry.size())}),
+      new TorqueFactorResidual(
+          ColumnsOfBodies(unknowns, equations.R, unknowns.other_begin()),
+          equations.z, static_cast<int>(blocks->links.size()),
+          {static_cast<int>(v.terms.size()), 2,
+           static_cast<int>(v.poses.geometry.size())}),
       nullptr, all);
 }
 
@@ -114,10 +131,11 @@ void AddTorques(const ArmUnknowns& unknowns, const LinkEquations& equations,
 void AddPriors(const ArmUnknowns& unknowns, const ArmTrust& trust,
                Blocks* blocks, ceres::Problem* problem) {
   const ArmValues& nominal = unknowns.nominal();
-  for (int i = 0; i < unknowns.num_links(); ++i) {
-    double* const c = blocks->links[i].data();
+  for (size_t b = 0; b < blocks->bodies.size(); ++b) {
+    double* const c = blocks->links[b].data();
     problem->AddResidualBlock(
-        new InertialPrior(nominal.links.segment<10>(10 * i), trust.inertia),
+        new InertialPrior(nominal.links.segment<10>(10 * blocks->bodies[b]),
+                          trust.inertia),
         nullptr, c);
     problem->SetManifold(c, new InertialManifold);
   }
@@ -157,12 +175,13 @@ ArmFit::ArmFit(const ArmUnknowns& unknowns, const ArmTrust& trust,
 // former from any start, so that Solve() has only geometry and poses to add.
 bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
-  const int size = unknowns_.tilt_begin();
-  VectorXd x(size);
-  for (int i = 0; i < unknowns_.num_links(); ++i) {  // inside the boundary
+  const std::vector<int>& bodies = unknowns_.bodies();
+  const auto num_bodies = static_cast<Eigen::Index>(bodies.size());
+  VectorXd x(10 * num_bodies + values->terms.size());
+  for (Eigen::Index b = 0; b < num_bodies; ++b) {  // inside the boundary
     const Vector10d c = LogCholeskyFromInertial(
-        unknowns_.nominal().links.segment<10>(10 * i), 0.01, 0.01);
-    InertialFromLogCholesky(c.data(), x.data() + 10 * i);
+        unknowns_.nominal().links.segment<10>(10 * bodies[b]), 0.01, 0.01);
+    InertialFromLogCholesky(c.data(), x.data() + 10 * b);
   }
   x.tail(values->terms.size()) = values->terms;
   std::vector<TermRange> ranges;
@@ -173,14 +192,17 @@ bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
                          ? TermRange::kFree
                          : TermRange::kHeld);
   }
-  const Eigen::Index others = unknowns_.size() - size;
-  const auto start =
-      StartLinks(equations.R.leftCols(size),
-                 equations.z - equations.R.rightCols(others) *
-                                   values->Stacked().tail(others),
-                 trust_.inertia, ranges, x);
+  const Eigen::Index others = unknowns_.size() - unknowns_.tilt_begin();
+  const auto start = StartLinks(
+      ColumnsOfBodies(unknowns_, equations.R, unknowns_.tilt_begin()),
+      equations.z -
+          equations.R.rightCols(others) * values->Stacked().tail(others),
+      trust_.inertia, ranges, x);
   if (!start) return false;
-  values->links = start->head(values->links.size());
+  values->links = unknowns_.nominal().links;
+  for (Eigen::Index b = 0; b < num_bodies; ++b) {
+    values->links.segment<10>(10 * bodies[b]) = start->segment<10>(10 * b);
+  }
   values->terms = start->tail(values->terms.size());
   return true;
 }
@@ -191,7 +213,7 @@ bool ArmFit::Start(const LinkEquations& torques, ArmValues* values) const {
 ArmFit::End ArmFit::Solve(const LinkEquations& torques,
                           ArmValues* values) const {
   const LinkEquations equations = WithTermPrior(unknowns_, trust_, torques);
-  Blocks blocks(*values);
+  Blocks blocks(unknowns_.bodies(), *values);
   if (!blocks.AreFinite()) {
     return {false, "a link is thinner than doubles can tell", 0};
   }
@@ -216,7 +238,7 @@ ArmFit::End ArmFit::Solve(const LinkEquations& torques,
 // W'W.
 MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
   MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
-  for (int i = 0; i < unknowns_.num_links(); ++i) {
+  for (const int i : unknowns_.bodies()) {
     const auto W = InertialPrior(unknowns_.nominal().links.segment<10>(10 * i),
                                  trust.inertia)
                        .W();

@@ -47,9 +47,12 @@ ArmUnknowns::ArmUnknowns(const Robot& robot, const LinearCalibration& linear,
                          RefineGeometry refine, const PoseMeasurements* poses)
     : robot_(robot), geometry_(robot), has_poses_(poses != nullptr) {
   nominal_.links = StackInertials(robot);
-  for (const Link& link : robot.links) {
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    const bool is_body = !IsDeclaredMassless(robot.links[i]);
+    if (is_body) bodies_.push_back(i);
     for (int k = 0; k < 10; ++k) {
-      Add(link.name + "." + InertialName(k), InertialUnit(k), true);
+      Add(robot.links[i].name + "." + InertialName(k), InertialUnit(k),
+          is_body);
     }
   }
   AddTerms(linear);
@@ -179,7 +182,7 @@ Robot ArmUnknowns::WithInertia(const ArmValues& values) const {
   for (int i = 0; i < num_links(); ++i) {
     robot.links[i].inertial =
         InertialParameters::FromVector(values.links.segment<10>(10 * i));
-    robot.links[i].has_inertial = true;
+    robot.links[i].has_inertial = !IsDeclaredMassless(robot.links[i]);
   }
   for (size_t t = 0; t < terms_.size(); ++t) {
     *TermOf(terms_[t].term, &robot.links[terms_[t].joint].joint) =

@@ -42,6 +42,9 @@ class ArmUnknowns {
   const std::string& name(int k) const { return names_[k]; }
   const std::string& unit(int k) const { return units_[k]; }
   bool is_free(int k) const { return free_[k]; }
+  // The links that are estimated, which are bodies: those that the file says
+  // have no mass (IsDeclaredMassless) are held at 0.
+  const std::vector<int>& bodies() const { return bodies_; }
   // Friction and armature that are estimated.
   bool is_positive(int k) const;
   std::vector<int> FreeIndices() const;
@@ -79,6 +82,7 @@ class ArmUnknowns {
   ArmValues nominal_;
   std::vector<std::string> names_, units_;
   std::vector<bool> free_;
+  std::vector<int> bodies_;
   Eigen::VectorXd torque_rms_;    // per joint
   Eigen::VectorXd other_priors_;  // standard deviations, 0: none
 };

@@ -53,6 +53,11 @@ std::string LinkTable(const Robot& nominal, const Robot& robot) {
                      "  mass kg    (file)   centre of mass x, y, z m\n";
   for (size_t i = 0; i < robot.links.size(); ++i) {
     const Link& link = robot.links[i];
+    if (IsDeclaredMassless(link)) {
+      text += PaddedCell("  " + link.name, width) +
+              "    no mass: it joins two joints of one body\n";
+      continue;
+    }
     const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
     text += PaddedCell("  " + link.name, width) +
             Format("%9.3f ", link.inertial.mass) +

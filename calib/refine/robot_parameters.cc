@@ -55,7 +55,7 @@ Robot RobotParameters::Apply() const {
     Vector10d V;
     for (int k = 0; k < 10; ++k) V[k] = Value(NameOf(link, k));
     link.inertial = InertialParameters::FromVector(V);
-    link.has_inertial = true;
+    link.has_inertial = !IsDeclaredMassless(link);
     for (const JointTerm term : kCalibratedTerms) {
       *TermOf(term, &link.joint) = Value(NameOf(link.joint, term));
     }

@@ -1,5 +1,7 @@
 #include "model/robot/robot.h"
 
+#include <algorithm>
+
 namespace armcal {
 
 using Eigen::AngleAxisd;
@@ -9,6 +11,20 @@ using Eigen::Vector3d;
 
 Isometry3d Link::X_PL(double q) const {
   return X_PF * JointTransform(joint.type, q) * X_ML;
+}
+
+void DeclareMassless(Link* link) {
+  link->inertial = InertialParameters();
+  link->has_inertial = false;
+  link->zero_inertials.clear();
+  for (int k = 0; k < 10; ++k) {
+    link->zero_inertials.emplace_back(InertialName(k));
+  }
+}
+
+bool IsDeclaredMassless(const Link& link) {
+  return std::count(link.zero_inertials.begin(), link.zero_inertials.end(),
+                    InertialName(0)) > 0;
 }
 
 std::vector<std::string> Robot::JointNames() const {

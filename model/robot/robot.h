@@ -28,11 +28,18 @@ struct Link {
   bool has_inertial = false;    // false: the file gave none
   // Lengths of the DH table that are declared unknown: of "a", "d".
   std::vector<std::string> unknown_lengths;
-  // Inertial parameters that are declared zero by symmetry: of "hx".."Izz".
+  // Inertial parameters that are declared zero: of "hx".."Izz" by symmetry;
+  // all ten, "mass" too, where the link is no body (DeclareMassless).
   std::vector<std::string> zero_inertials;
 
   Eigen::Isometry3d X_PL(double q) const;
 };
+
+// Says that the link is no body: it stands between two joints that move one, as
+// in an MJCF body with two joints. Unlike a link whose file gives no inertia,
+// its parameters are known, all to be 0.
+void DeclareMassless(Link* link);
+bool IsDeclaredMassless(const Link& link);
 
 // Rz(yaw) Ry(pitch) Rx(roll) of rpy = (roll, pitch, yaw), as URDF means it.
 Eigen::Matrix3d RotationFromRpy(const Eigen::Vector3d& rpy);

@@ -147,13 +147,21 @@ void ReadInertial(const YamlNode& entry, Robot* robot, Link* link) {
                          "); it serves as a start value only");
 }
 
-// What the table declares zero must be zero in the values it gives.
+// What the table declares zero must be zero in the values it gives. Without
+// mass nothing else is there either.
 void ReadZeroInertials(const YamlNode& entry, Link* link) {
   const std::optional<YamlNode> zero = entry.Child("zero");
   if (!zero) return;
   std::vector<std::string> names;
-  for (int i = 1; i < 10; ++i) names.push_back(InertialName(i));
+  for (int i = 0; i < 10; ++i) names.push_back(InertialName(i));
   link->zero_inertials = zero->Choices(names);
+  if (IsDeclaredMassless(*link)) {
+    if (link->inertial.mass > 0) {
+      zero->Refuse("expected a mass of 0, but the link has " +
+                   NumberText(link->inertial.mass) + " kg");
+    }
+    return DeclareMassless(link);
+  }
   const Vector10d values = link->inertial.ToVector();
   for (int i = 1; i < 10; ++i) {
     const double scale = i < 4 ? values.segment<3>(1).cwiseAbs().maxCoeff()

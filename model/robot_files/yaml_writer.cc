@@ -93,13 +93,14 @@ void AddPlace(const Link& link, const std::optional<DhConvention>& convention,
 }
 
 void AddBody(const Link& link, std::string* text) {
-  if (!link.has_inertial && link.inertial.mass == 0) return;
-  const Vector10d V = link.inertial.ToVector();
-  const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
-  *text += "    inertial: " +
-           List(std::vector<double>(V.data(), V.data() + V.size())) +
-           Format("  # centre of mass %.6g %.6g %.6g m\n", com.x(), com.y(),
-                  com.z());
+  if (link.has_inertial || link.inertial.mass != 0) {
+    const Vector10d V = link.inertial.ToVector();
+    const Eigen::Vector3d com = link.inertial.first_moment / link.inertial.mass;
+    *text += "    inertial: " +
+             List(std::vector<double>(V.data(), V.data() + V.size())) +
+             Format("  # centre of mass %.6g %.6g %.6g m\n", com.x(), com.y(),
+                    com.z());
+  }
   if (!link.zero_inertials.empty()) {
     *text += "    zero: " + Names(link.zero_inertials) + "\n";
   }

@@ -29,6 +29,9 @@ struct TreeLink {
   // A frame that the file names on a link, no body: the tool where its name is
   // asked for, or where it is all that stands on the last link.
   bool is_frame = false;
+  // Between two joints of one body, as MJCF has them: no body either, so that
+  // its mass is known to be 0. A link without inertial may have any.
+  bool is_massless = false;
 };
 
 // A joint's position as that of another: factor * q + offset.

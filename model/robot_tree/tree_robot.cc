@@ -100,6 +100,7 @@ Link MakeLink(const RobotTree& tree, int j, const RigidGroup& before,
   if (link.inertial.mass == 0) {
     link.inertial = InertialParameters();
     link.has_inertial = false;
+    if (tree.links[joint.child].is_massless) DeclareMassless(&link);
   }
   return link;
 }

@@ -10,6 +10,7 @@
 #include "calib/excite.h"
 #include "calib/inspect.h"
 #include "calib/verify.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/option_error.h"
@@ -64,6 +65,24 @@ double ValueOf(const CalibrateSummary& summary, const std::string& name) {
   }
   ADD_FAILURE() << "no parameter " << name;
   return 0;
+}
+
+// The link between two joints of an MJCF body needs no mass to start from.
+TEST(Doors, CalibrateMakesARobotOfABodyWithTwoJoints) {
+  const Robot robot = ReadMjcf(
+      {"ball.xml",
+       "<mujoco><worldbody><body name='b'><joint name='j1' axis='0 1 0'/>"
+       "<joint name='j2'/><inertial pos='.1 0 .2' mass='2' "
+       "diaginertia='.02 .03 .025'/></body></worldbody></mujoco>"},
+      {});
+  std::mt19937_64 random(3);
+  Log log = RecordMotion(RandomMultisine(&random, 2, 1.2), 20, .01);
+  AddTorque(robot, &log);
+  AddNoise(&random, .01 * ColumnRms(log.tau), &log.tau);
+  const CalibrateSummary summary =
+      Calibrate(robot, {{{"swings", log}}}, OneTerm());
+  EXPECT_TRUE(summary.robot) << summary.report;
+  EXPECT_EQ(ValueOf(summary, "b_j1.mass"), 0);
 }
 
 // A motor of 12 N m/A behind a gear of its own inertia and friction.

@@ -161,7 +161,8 @@ int MjcfTreeReader::AddMovedLinks(const XmlElement& body,
     TreeLink moved;
     moved.name = link.name + "_" + name;
     moved.line = element.line();
-    if (i + 1 == joints.size()) std::swap(moved, link);
+    moved.is_massless = i + 1 < joints.size();
+    if (!moved.is_massless) std::swap(moved, link);
     const int child = AddLink(std::move(moved), body);
     AddJoint(std::move(joint), parent, child);
     parent = child;

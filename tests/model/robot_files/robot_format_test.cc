@@ -8,6 +8,7 @@
 
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/robot/kinematics.h"
+#include "model/robot_files/mjcf/mjcf_reader.h"
 #include "model/robot_files/mjcf_writer.h"
 #include "model/robot_files/robot_formats.h"
 #include "model/robot_files/robot_reader.h"
@@ -155,6 +156,27 @@ TEST(RobotFormat, TablesStayTables) {
     EXPECT_FALSE(moved.dh_convention);
     ExpectSameNumbers(robot, moved);
   }
+}
+
+// Between two joints of one MJCF body; a body that has no inertia may have any.
+TEST(RobotFormat, MjcfAndYamlSayThatALinkHasNoMass) {
+  const Robot robot = ReadMjcf(
+      {"two.xml",
+       "<mujoco><worldbody><body name='a'><joint name='q1' axis='0 0 1'/>"
+       "<body name='b'><joint name='q2' axis='0 1 0'/>"
+       "<joint name='q3' axis='1 0 0'/><inertial pos='0 0 .2' mass='2' "
+       "diaginertia='.02 .02 .01'/></body></body></worldbody></mujoco>"},
+      {});
+  for (const Robot& read : {robot, ReadBack(Format("yaml"), robot),
+                            ReadBack(Format("mjcf"), robot)}) {
+    const std::vector<Link>& links = read.links;
+    const size_t between = links.size() - 2;
+    EXPECT_EQ(links[between].joint.name, "q2");
+    EXPECT_TRUE(IsDeclaredMassless(links[between]));
+    EXPECT_FALSE(IsDeclaredMassless(links[between + 1]));
+  }
+  EXPECT_FALSE(IsDeclaredMassless(robot.links[0]));
+  EXPECT_FALSE(IsDeclaredMassless(ReadBack(Format("yaml"), robot).links[0]));
 }
 
 TEST(RobotFormat, YamlHoldsAnyName) {

@@ -163,9 +163,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"[a, d]", "[a, alpha]",
              "line 17, links[1].unknown[2]: found 'alpha': expected one of a, "
              "d"},
+        Case{"[hz, Ixy]", "[volume]",
+             "line 18, links[1].zero[1]: found 'volume': expected one of mass, "
+             "hx, hy, hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz"},
         Case{"[hz, Ixy]", "[mass]",
-             "line 18, links[1].zero[1]: found 'mass': expected one of hx, hy, "
-             "hz, Ixx, Ixy, Iyy, Ixz, Iyz, Izz"},
+             "line 18, links[1].zero: found '[mass]': expected a mass of 0, "
+             "but the link has 5 kg"},
         Case{"[hz, Ixy]", "[hx]",
              "line 18, links[1].zero: found '[hx]': expected hx to be "
              "zero, but mass, com and inertia make it -1 kg m"},
