@@ -91,7 +91,7 @@ class Stub(unittest.TestCase):
                          "tests/python/write_stubs.py writes it anew")
 
     def test_signatures_have_the_flags_defaults(self):
-        left_out = {"json", "quiet", "robot", "base", "tip", "gravity", "robot_folder"}
+        left_out = {"json", "quiet", "robot"}
         for function in commands.FUNCTIONS:
             parameters = inspect.signature(function).parameters
             options = option_kinds.options_of(function.__name__)
@@ -116,7 +116,7 @@ class Stub(unittest.TestCase):
             function = getattr(armcal, command)
             known = set(inspect.signature(function).parameters)
             for option in armcal.options(command):
-                if option not in known | {"base", "tip", "gravity", "robot_folder", "json", "quiet"}:
+                if option not in known | {"json", "quiet"}:
                     self.assertRegex(function.__doc__, rf"(?m)^ +{option} ",
                                      command)
 

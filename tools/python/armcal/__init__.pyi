@@ -51,7 +51,11 @@ def calibrate(
     camera: Optional[Logs] = None,
     camera_on: Literal['tool', 'world'] = 'tool',
     export: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -157,8 +161,16 @@ def calibrate(
                          world (the board is on the tool) (default tool)
     export               Union[str, Sequence[str]]: formats to write the robot
                          in
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -182,7 +194,11 @@ def verify(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -218,8 +234,16 @@ def verify(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques,wrench:/ft
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -258,7 +282,11 @@ def diagnose(
     topics: Optional[Union[str, Sequence[str]]] = None,
     export: Optional[Union[str, Sequence[str]]] = None,
     modules: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -328,8 +356,16 @@ def diagnose(
     modules              Union[str, Sequence[str]]: the laws found as sources
                          for the loop of a simulator that lacks them:
                          effects.py, effects.c
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -367,7 +403,11 @@ def simulate(
     temperature: bool = False,
     jitter: float = 0.0,
     lost: float = 0.0,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -425,8 +465,16 @@ def simulate(
     jitter               float: of the sampling instants, standard deviation, s
                          (default 0)
     lost                 float: share of samples that are lost (default 0)
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -469,7 +517,11 @@ def excite(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -547,8 +599,16 @@ def excite(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques,wrench:/ft
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -568,7 +628,11 @@ def inspect(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -596,8 +660,16 @@ def inspect(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques,wrench:/ft
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -628,7 +700,11 @@ def reduce(
     window: Optional[float] = None,
     interval: float = 0.5,
     quadrature: Literal['simpson', 'trapezoid'] = 'trapezoid',
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -685,8 +761,16 @@ def reduce(
                          0.5)
     quadrature           str: integral model: trapezoid, simpson (default
                          trapezoid)
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -699,7 +783,11 @@ def merge(
     factors: Any,
     *,
     progress: Progress = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -710,8 +798,16 @@ def merge(
     factors  factor files, folders of them, or Reductions, one or a list
 
     Options:
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line
@@ -732,7 +828,11 @@ def compare(
     torque_constants_stddev: Optional[float] = None,
     gear_ratios: Optional[Union[float, Sequence[float]]] = None,
     topics: Optional[Union[str, Sequence[str]]] = None,
+    base: Optional[str] = None,
+    tip: Optional[str] = None,
     posture: Optional[Mapping[str, float]] = None,
+    gravity: Optional[Union[float, Sequence[float]]] = None,
+    robot_folder: Optional[Path] = None,
     out: Optional[Path] = None,
     flagfile: Optional[Path] = None,
     threads: int = 0,
@@ -763,8 +863,16 @@ def compare(
     gear_ratios          Union[float, Sequence[float]]: per joint; default: 1
     topics               Union[str, Sequence[str]]: topics of ROS 2 bags, as in
                          /joint_states,effort:/torques,wrench:/ft
+    base                 str: (body) that the arm starts at; default: the root
+    tip                  str: that the arm ends at, or links, as in
+                         left_hand,right_hand; default: the only one
     posture              Mapping[str, float]: where other joints are held, such
                          as a gripper's, rad or m; default: next to 0
+    gravity              Union[float, Sequence[float]]: gravity in the base
+                         frame, m/s^2; default: the robot file's, for URDF
+                         0,0,-9.81
+    robot_folder         Path: that files which the robot's MJCF names may lie
+                         in; default: its own folder
     out                  Path: for the result files; default: none (simulate:
                          needed)
     flagfile             Path: more flags, one --flag=value a line

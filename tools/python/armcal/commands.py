@@ -12,7 +12,8 @@ from typing import Any, Callable, Dict, List, Optional, Tuple, Union
 from armcal import _armcal
 from armcal.inputs import Inputs
 from armcal.log import Log, read_log
-from armcal.option_kinds import default_of, kind_of, options_of, unit_of
+from armcal.option_kinds import (default_of, kind_of, option_text, options_of,
+                                 unit_of)
 from armcal.results import (Calibration, Comparison, Diagnosis, Excitation,
                             Inspection, Merger, Reduction, Simulation,
                             Verification)
@@ -25,24 +26,53 @@ LogLike = Union[Log, str, "os.PathLike[str]"]
 Logs = Union[LogLike, List[LogLike], Tuple[LogLike, ...]]
 Progress = Optional[Callable[[str, float], None]]
 
-# They say where the robot is from, which its object knows.
-_ROBOT_FLAGS = ("robot", "base", "tip", "gravity", "robot_folder")
+# They say what is read of the robot's file: the command line's flags under
+# "chain of the robot".
+_CHAIN_FLAGS = ("base", "tip", "posture", "gravity", "robot_folder")
 # They say what is printed, which here is nothing.
 _PRINT_FLAGS = ("json", "quiet")
 
 
-def _robot(robot: RobotLike) -> _armcal.Robot:
+def _vector(name: str, text: str) -> List[float]:
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise _armcal.UsageError(f"{name}: found '{text}', expected numbers "
+                                 "with commas between") from None
+
+
+def _positions(text: str) -> Dict[str, float]:
+    """finger=0.02,thumb=1 as a dict; a name may hold an equals sign."""
+    positions = {}
+    for part in text.split(",") if text else []:
+        name, _, position = part.rpartition("=")
+        if not name:
+            raise _armcal.UsageError(f"posture: found '{part}', expected "
+                                     "joint=position, as in finger=0.02")
+        positions[name], = _vector("posture", position)
+    return positions
+
+
+def _robot(robot: RobotLike, options: Dict[str, Any]) -> _armcal.Robot:
+    """The robot of a file is read as the options for its chain say. A Robot has
+    been read, and would take no notice of them."""
+    given = {name: option_text(name, options[name]) for name in _CHAIN_FLAGS
+             if options.get(name) is not None}
     if isinstance(robot, _armcal.Robot):
+        for name in given:
+            raise _armcal.UsageError(f"{name}: give it to read_robot")
         return robot
-    return _armcal.read_robot(robot)
+    return _armcal.read_robot(
+        robot, base=given.get("base", ""), tip=given.get("tip", ""),
+        gravity=(_vector("gravity", given["gravity"])
+                 if given.get("gravity") else None),
+        robot_folder=given.get("robot_folder", ""),
+        posture=_positions(given.get("posture", "")))
 
 
 def _run(command: str, robot: Optional[_armcal.Robot], options: Dict[str, Any],
          progress: Progress
          ) -> Tuple[_armcal.Outcome, str, Dict[str, bytes]]:
-    for name in _ROBOT_FLAGS:
-        if name in options:
-            raise _armcal.UsageError(f"{name}: give it to read_robot")
     with Inputs(options) as inputs:
         flags = inputs.texts(options)
         if robot is not None:
@@ -97,7 +127,7 @@ def calibrate(robot: RobotLike, log: Optional[Logs] = None, *,
     progress  is called with what is being done and its share, 0 to 1; below 0
               nobody knows
     """
-    arm = _robot(robot)
+    arm = _robot(robot, options)
     run = _run("calibrate", arm, {**options, "log": log, "validate": validate},
                progress)
     return Calibration(*run, trace=_tracer(arm, log, options))
@@ -118,7 +148,7 @@ def diagnose(robot: RobotLike, log: Logs, *, validate: Optional[Logs] = None,
                  what is still missing in the calibrated robot; robot is then
                  the one that it was made of
     """
-    return Diagnosis(*_run("diagnose", _robot(robot),
+    return Diagnosis(*_run("diagnose", _robot(robot, options),
                            {**options, "log": log, "validate": validate,
                             "reference": reference,
                             "calibration": calibration}, progress))
@@ -133,7 +163,7 @@ def verify(robot: RobotLike, log: Optional[Logs] = None, *,
     calibration  a Calibration, its calibration.json or the folder of that;
                  robot is then the one that it was made of
     """
-    return Verification(*_run("verify", _robot(robot),
+    return Verification(*_run("verify", _robot(robot, options),
                               {**options, "log": log,
                                "calibration": calibration}, progress))
 
@@ -141,8 +171,8 @@ def verify(robot: RobotLike, log: Optional[Logs] = None, *,
 def inspect(robot: RobotLike, log: Optional[Logs] = None,
             **options: Any) -> Inspection:
     """What a robot file or a log holds, and what is wrong with it."""
-    return Inspection(*_run("inspect", _robot(robot), {**options, "log": log},
-                            None))
+    return Inspection(*_run("inspect", _robot(robot, options),
+                            {**options, "log": log}, None))
 
 
 def _log_of(name: str, files: Dict[str, bytes], robot: _armcal.Robot,
@@ -161,7 +191,7 @@ def excite(robot: RobotLike, *,
 
     given  logs or a Calibration that are there already
     """
-    arm = _robot(robot)
+    arm = _robot(robot, options)
     outcome, text, files = _run("excite", arm, {**options, "given": given},
                                 progress)
     name = "trajectory.csv"
@@ -172,7 +202,7 @@ def excite(robot: RobotLike, *,
 def simulate(robot: RobotLike, *, progress: Progress = None,
              **options: Any) -> Simulation:
     """The log of a simulated robot with hidden effects, and the truth."""
-    arm = _robot(robot)
+    arm = _robot(robot, options)
     if options.get("list_effects"):
         raise _armcal.UsageError("list_effects is for the command line")
     outcome, text, files = _run("simulate", arm, options, progress)
@@ -187,8 +217,8 @@ def reduce(robot: RobotLike, log: Logs, *, progress: Progress = None,
 
     log  logs, paths or Logs; like, unit and date are of all of them
     """
-    return Reduction(*_run("reduce", _robot(robot), {**options, "log": log},
-                           progress))
+    return Reduction(*_run("reduce", _robot(robot, options),
+                           {**options, "log": log}, progress))
 
 
 def merge(robot: RobotLike, factors: Any, *, progress: Progress = None,
@@ -198,7 +228,7 @@ def merge(robot: RobotLike, factors: Any, *, progress: Progress = None,
 
     factors  factor files, folders of them, or Reductions, one or a list
     """
-    return Merger(*_run("merge", _robot(robot),
+    return Merger(*_run("merge", _robot(robot, options),
                         {**options, "factors": factors}, progress))
 
 
@@ -212,7 +242,7 @@ def compare(results: Any, *, robot: Optional[RobotLike] = None,
     robot    of log; what calibrations are of
     log      held out: what calibrations and robots leave of its torques
     """
-    arm = None if robot is None else _robot(robot)
+    arm = None if robot is None else _robot(robot, options)
     return Comparison(*_run("compare", arm,
                             {**options, "results": results, "log": log},
                             progress))
@@ -234,7 +264,7 @@ def _say_options(function: Callable[..., Any]) -> None:
     """Gives a function the signature and the sentences of its options."""
     own = signature(function)
     explicit = [p for p in own.parameters.values() if p.kind != p.VAR_KEYWORD]
-    hidden = {p.name for p in explicit} | set(_ROBOT_FLAGS + _PRINT_FLAGS)
+    hidden = {p.name for p in explicit} | {"robot", *_PRINT_FLAGS}
     said, parameters = [], []
     for option in options_of(function.__name__):
         if option.name in hidden:
