@@ -76,8 +76,9 @@ class RobotAudit {
   }
 
   void AddMissing() {
-    const std::string names =
-        NamesWhere(robot_, [](const Link& link) { return !link.has_inertial; });
+    const std::string names = NamesWhere(robot_, [](const Link& link) {
+      return !link.has_inertial && !IsDeclaredMassless(link);
+    });
     if (names.empty()) return;
     Add("no_inertia", "links have no inertia", names,
         "armcal calibrate needs none; for simulators export its robot.urdf");

@@ -71,6 +71,7 @@ std::string TermsText(const Joint& joint) {
 }
 
 std::string LinkText(const Link& link) {
+  if (IsDeclaredMassless(link)) return "no mass: it joins joints of one body";
   if (!link.has_inertial) return "no inertia in the file";
   return Format("%.4g kg, centre at ", link.inertial.mass) +
          VectorText(CenterOf(link)) + " m";
