@@ -1,5 +1,6 @@
 #include "calib/inspect/reading_candidates.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace armcal {
@@ -22,6 +23,13 @@ LogReading TurnedRound(LogReading reading, Kind kind, int j) {
   Wiring& wiring = reading.wiring;
   if (kind != Kind::kTorqueSign) wiring.position_sign[j] *= -1;
   if (kind != Kind::kPositionSign) wiring.torque_sign[j] *= -1;
+  return reading;
+}
+
+LogReading AllTurnedRound(LogReading reading, Kind kind) {
+  Wiring& wiring = reading.wiring;
+  (kind == Kind::kAllTorqueSigns ? wiring.torque_sign : wiring.position_sign) *=
+      -1;
   return reading;
 }
 
@@ -48,6 +56,13 @@ std::vector<Candidate> WiringCandidates(const LogReading& from,
     turn(&of_torques, Kind::kTorqueSign, j);
     turn(&of_positions, Kind::kPositionSign, j);
     turn(&of_positions, Kind::kJointSign, j);
+  }
+  // Of an arm of one joint they are its own.
+  if (n > 1 && std::count(asked.begin(), asked.end(), true) > 0) {
+    for (const Kind kind : {Kind::kAllTorqueSigns, Kind::kAllPositionSigns}) {
+      auto& all = kind == Kind::kAllTorqueSigns ? of_torques : of_positions;
+      all.push_back({AllTurnedRound(from, kind), {kind}});
+    }
   }
   of_torques.insert(of_torques.end(), of_positions.begin(), of_positions.end());
   return of_torques;

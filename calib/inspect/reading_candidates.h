@@ -13,8 +13,10 @@ struct Candidate {
 };
 
 // Two joints' positions, torques or both exchanged, and each joint's position,
-// torque or both turned round; of joints that are `asked`. Those that move
-// alike follow each other.
+// torque or both turned round; of joints that are `asked`. And all torques, or
+// all positions, turned round at once: no sum of what single joints' signs
+// explain tells that, since a fit whose other torques are still wrong takes
+// their wrong inertias for right. Those that move alike follow each other.
 std::vector<Candidate> WiringCandidates(const LogReading& from,
                                         const std::vector<bool>& asked);
 

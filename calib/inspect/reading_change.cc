@@ -12,6 +12,8 @@ bool AreTheSame(const ReadingChange& a, const ReadingChange& b) {
   return a.kind == b.kind && a.joint == b.joint && a.other == b.other;
 }
 
+bool IsOfSigns(Kind kind) { return IsOneSign(kind) || IsAllSigns(kind); }
+
 bool IsOfOneSignal(Kind kind) {
   return IsOneSign(kind) || kind == Kind::kPositionsExchanged ||
          kind == Kind::kTorquesExchanged;
@@ -23,7 +25,14 @@ bool IsOneSign(Kind kind) {
   return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
 }
 
+bool IsAllSigns(Kind kind) {
+  return kind == Kind::kAllTorqueSigns || kind == Kind::kAllPositionSigns;
+}
+
 bool MayBeEither(const ReadingChange& a, const ReadingChange& b) {
+  if (IsAllSigns(a.kind) || IsAllSigns(b.kind)) {
+    return a.kind != b.kind && IsOfSigns(a.kind) && IsOfSigns(b.kind);
+  }
   if (!IsOfOneSignal(a.kind) || !IsOfOneSignal(b.kind) || AreTheSame(a, b))
     return false;
   const std::vector<int> joints = JointsOf(b);

@@ -29,7 +29,9 @@ struct ReadingChange {
     kTorquesExchanged,
     kPositionSign,  // of one joint
     kTorqueSign,
-    kJointSign,  // of both
+    kJointSign,       // of both
+    kAllTorqueSigns,  // of all joints at once
+    kAllPositionSigns,
     kDegrees,
     kMillimetres,
     kGravity,  // has another direction, or is missing
@@ -50,8 +52,11 @@ struct ReadingChange {
 
 // Whether it is the sign of one joint's position or torque alone.
 bool IsOneSign(ReadingChange::Kind kind);
+// Whether it is the sign of all joints' positions or torques.
+bool IsAllSigns(ReadingChange::Kind kind);
 // Whether it may be the one or the other that is wrong: both concern positions
-// or torques alone, and a joint that is in both.
+// or torques alone, and a joint that is in both; or all joints' signs, and
+// one's.
 bool MayBeEither(const ReadingChange& a, const ReadingChange& b);
 // The joint or joints that it concerns; none where it is all.
 std::vector<int> JointsOf(const ReadingChange& change);

@@ -37,14 +37,16 @@ void SayGravity(const Eigen::Vector3d& gravity, const Robot& robot,
 }
 
 const char* SignalOf(Kind kind) {
-  return kind == Kind::kPositionSign || kind == Kind::kPositionsExchanged
+  return kind == Kind::kPositionSign || kind == Kind::kPositionsExchanged ||
+                 kind == Kind::kAllPositionSigns
              ? "position"
              : "torque";
 }
 
 // Of positions or torques alone.
 std::string FindingWord(Kind kind) {
-  return std::string(SignalOf(kind)) + (IsOneSign(kind) ? "_sign" : "_order");
+  return std::string(SignalOf(kind)) +
+         (IsOneSign(kind) || IsAllSigns(kind) ? "_sign" : "_order");
 }
 
 std::string JointNames(const ReadingChange& change, const Robot& robot) {
@@ -56,6 +58,10 @@ std::string JointNames(const ReadingChange& change, const Robot& robot) {
 }
 
 std::string Phrase(const ReadingChange& change, const Robot& robot) {
+  if (IsAllSigns(change.kind)) {
+    return std::string("all ") + SignalOf(change.kind) +
+           "s have the wrong sign";
+  }
   const std::string signal = std::string("the ") + SignalOf(change.kind);
   const std::string joints = JointNames(change, robot);
   return IsOneSign(change.kind)
@@ -63,11 +69,12 @@ std::string Phrase(const ReadingChange& change, const Robot& robot) {
              : signal + "s of " + joints + " are exchanged";
 }
 
-// The same change of the other signal in two words.
+// The same change of the other signal in few words.
 std::string Alternative(const ReadingChange& other, const ReadingChange& change,
                         const Robot& robot) {
   if (JointsOf(other) != JointsOf(change)) return Phrase(other, robot);
   const std::string signal = SignalOf(other.kind);
+  if (IsAllSigns(other.kind)) return "all " + signal + "s";
   return IsOneSign(other.kind) ? "its " + signal : "their " + signal + "s";
 }
 
@@ -106,6 +113,8 @@ InspectionFinding FindingOf(const ReadingChange& change,
     case Kind::kTorquesExchanged:
     case Kind::kPositionSign:
     case Kind::kTorqueSign:
+    case Kind::kAllTorqueSigns:
+    case Kind::kAllPositionSigns:
       SayOneSignal(change, robot, &finding);
       break;
     case Kind::kJointSign:

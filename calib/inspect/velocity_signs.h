@@ -12,7 +12,8 @@ namespace armcal {
 std::vector<bool> OppositeVelocities(const Log& log);
 
 // Where torques fit alike with the sign of a joint's position or torque turned,
-// a velocity that is opposite says that it is the position.
+// a velocity that is opposite says that it is the position. Of all joints' at
+// once most velocities say so; else it is the torques.
 void BelieveVelocities(const std::vector<bool>& opposite,
                        ReadingFinding* finding);
 

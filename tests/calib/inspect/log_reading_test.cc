@@ -81,11 +81,18 @@ TEST_F(LogReadingTest, TheSignOfEitherSignal) {
   const ReadingFinding found = Read();
   ASSERT_EQ(found.changes.size(), 1u);
   EXPECT_EQ(found.changes[0].joint, 0);
-  ASSERT_EQ(found.changes[0].alternatives.size(), 1u);
-  const ReadingChange& other = found.changes[0].alternatives[0];
-  EXPECT_TRUE(IsOneSign(other.kind));
-  EXPECT_NE(other.kind, found.changes[0].kind);
-  EXPECT_EQ(other.joint, 0);
+  // Nor whether what rests is turned round with it.
+  ASSERT_EQ(found.changes[0].alternatives.size(), 3u);
+  EXPECT_TRUE(IsOneSign(found.changes[0].kind));
+  int single = 0;
+  for (const ReadingChange& other : found.changes[0].alternatives) {
+    EXPECT_TRUE(IsAllSigns(other.kind) || IsOneSign(other.kind));
+    if (!IsOneSign(other.kind)) continue;
+    ++single;
+    EXPECT_NE(other.kind, found.changes[0].kind);
+    EXPECT_EQ(other.joint, 0);
+  }
+  EXPECT_EQ(single, 1);
 }
 
 // Velocities in rad/s, or positions far beyond the file's limits.
@@ -155,6 +162,29 @@ TEST_F(LogReadingTest, TwoFaults) {
   ASSERT_EQ(found.changes.size(), 2u);
   EXPECT_EQ(found.reading.wiring.position_sign[0], -1);
   EXPECT_EQ(found.reading.wiring.torque_sign[3], -1);
+}
+
+// Friction would give power and masses be negative: no sign of one joint mends
+// that, and none is claimed.
+TEST_F(LogReadingTest, AllTorquesTurnedRound) {
+  log_.tau *= -1;
+  ExpectOne(Kind::kAllTorqueSigns);
+  EXPECT_EQ(Read().reading.wiring.torque_sign,
+            Eigen::VectorXd::Constant(6, -1));
+}
+
+TEST_F(LogReadingTest, AllPositionsTurnedRound) {
+  log_.q *= -1;
+  ExpectOne(Kind::kAllPositionSigns);
+}
+
+TEST_F(LogReadingTest, AllTorquesTurnedRoundButOne) {
+  log_.tau.leftCols(5) *= -1;
+  const ReadingFinding found = Read();
+  ASSERT_EQ(found.changes.size(), 2u);
+  EXPECT_EQ(found.changes[0].kind, Kind::kAllTorqueSigns);
+  EXPECT_EQ(found.changes[1].kind, Kind::kTorqueSign);
+  EXPECT_EQ(found.changes[1].joint, 5);
 }
 
 TEST_F(LogReadingTest, Degrees) {
