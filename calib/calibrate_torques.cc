@@ -18,6 +18,7 @@
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
+#include "calib/refine/impossible_robot.h"
 #include "calib/refine/nonlinear_report.h"
 #include "calib/refine/trajectory_refinement.h"
 #include "calib/robot_outputs.h"
@@ -151,6 +152,9 @@ class TorqueCalibrator {
   // What the sensor carries, where logs have its columns.
   void AddForceTorque(nlohmann::json* json);
   void AddDriveTrains(nlohmann::json* json);
+  // False where no robot that can exist explains the logs, which the verdict
+  // tells before all else.
+  bool IsPossible(nlohmann::json* json);
   void Draw();
 
   const LinearCalibration& linear() const { return *details_->linear; }
@@ -279,6 +283,19 @@ void TorqueCalibrator::AddForceTorque(nlohmann::json* json) {
   summary_.report += ForceTorqueText(sensor);
 }
 
+bool TorqueCalibrator::IsPossible(nlohmann::json* json) {
+  if (!details_->refined) return true;
+  const std::string why_not =
+      WhatNoRobotExplains(linear(), *details_->refined, options_.trust);
+  if (why_not.empty()) return true;
+  std::vector<std::string> reasons = Shortcomings(robot_, linear());
+  reasons.insert(reasons.begin(), why_not);
+  (*json)["verdict"] = VerdictJson(reasons);
+  summary_.report = VerdictText({why_not}) + summary_.report;
+  summary_.brief = why_not + " " + summary_.brief;
+  return false;
+}
+
 // Of what is held out, where there is something.
 void TorqueCalibrator::Draw() {
   if (!options_.draw_torques || !linear().solved) return;
@@ -336,13 +353,15 @@ CalibrateSummary TorqueCalibrator::Run() {
   const bool refined = Refine(&json);
   AddForceTorque(&json);
   AddDriveTrains(&json);
+  const bool possible = IsPossible(&json);
   summary_.json = json.dump(2) + "\n";
   summary_.files.push_back({"calibration.json", summary_.json});
   summary_.files.push_back({"covariance.csv", CovarianceCsv(linear())});
   summary_.files.push_back(
       {"outliers.csv", OutlierCsv(robot_, *training_, linear())});
   Draw();
-  summary_.positive = refined && Shortcomings(robot_, linear()).empty();
+  summary_.positive =
+      refined && possible && Shortcomings(robot_, linear()).empty();
   summary_.details = details_;
   return summary_;
 }
