@@ -18,6 +18,7 @@
 #include "calib/linear/calibration_report.h"
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
+#include "calib/log_doubts.h"
 #include "calib/refine/impossible_robot.h"
 #include "calib/refine/nonlinear_report.h"
 #include "calib/refine/trajectory_refinement.h"
@@ -354,6 +355,8 @@ CalibrateSummary TorqueCalibrator::Run() {
   AddForceTorque(&json);
   AddDriveTrains(&json);
   const bool possible = IsPossible(&json);
+  AddLogDoubts(robot_, input_, options_, *training_, *details_, &json,
+               &summary_);
   summary_.json = json.dump(2) + "\n";
   summary_.files.push_back({"calibration.json", summary_.json});
   summary_.files.push_back({"covariance.csv", CovarianceCsv(linear())});

@@ -12,9 +12,8 @@ namespace {
 
 const std::set<std::string>& OfAnotherArm() {
   static const std::set<std::string> kFindings = {
-      "time_unit",      "position_unit", "joint_order",
-      "position_order", "torque_order",  "joint_sign",
-      "torque_sign",    "position_sign", "unsigned_torque"};
+      "position_unit", "joint_order", "position_order", "torque_order",
+      "joint_sign",    "torque_sign", "position_sign",  "unsigned_torque"};
   return kFindings;
 }
 
@@ -28,12 +27,21 @@ const std::set<std::string>& OfAnotherScale() {
 // wanted for, which says more.
 std::vector<InspectionFinding> FindingsOf(const Robot& robot,
                                           const LogSource& log,
-                                          const LogReaderOptions& options) {
+                                          const LogReaderOptions& options,
+                                          int most_rows) {
   try {
-    return InspectLog(robot, log, options).findings;
+    return InspectLog(robot, log, options, 0,
+                      most_rows > 0 ? most_rows : kMostInspectedRows)
+        .findings;
   } catch (const InputError&) {
     return {};
   }
+}
+
+bool Counts(const std::string& finding, const ReadingQuestions& questions) {
+  return finding == "time_unit" ||
+         (questions.arm && OfAnotherArm().count(finding) > 0) ||
+         (questions.scales && OfAnotherScale().count(finding) > 0);
 }
 
 }  // namespace
@@ -41,23 +49,30 @@ std::vector<InspectionFinding> FindingsOf(const Robot& robot,
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,
-                                       bool scales) {
+                                       const ReadingQuestions& questions) {
   std::vector<std::vector<InspectionFinding>> findings(logs.size());
   tbb::parallel_for(size_t{0}, logs.size(), [&](size_t k) {
-    findings[k] = FindingsOf(robot, logs[k], options);
+    findings[k] = FindingsOf(robot, logs[k], options, questions.most_rows);
   });
   std::vector<DataFinding> wrong;
   for (size_t k = 0; k < logs.size(); ++k) {
     for (const InspectionFinding& found : findings[k]) {
-      const bool counts = OfAnotherArm().count(found.finding) > 0 ||
-                          (scales && OfAnotherScale().count(found.finding) > 0);
-      if (!counts) continue;
+      if (!Counts(found.finding, questions)) continue;
       wrong.push_back({"of " + logs[k].name + " " + found.sentence,
                        found.evidence, "armcal inspect: " + found.remedy,
                        true});
     }
   }
   return wrong;
+}
+
+std::vector<DataFinding> WrongReadings(const Robot& robot,
+                                       const std::vector<LogSource>& logs,
+                                       const LogReaderOptions& options,
+                                       bool scales) {
+  ReadingQuestions questions;
+  questions.scales = scales;
+  return WrongReadings(robot, logs, options, questions);
 }
 
 }  // namespace armcal

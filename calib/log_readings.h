@@ -10,11 +10,24 @@
 
 namespace armcal {
 
+// What is asked of logs, beside the unit of their time.
+struct ReadingQuestions {
+  bool scales = true;  // what scales torques alone
+  // Signs, order and units of positions and torques, which are told beside the
+  // file's inertias and lengths.
+  bool arm = true;
+  int most_rows = 0;  // the first of each log; 0: as inspect looks at
+};
+
 // What makes logs those of another arm than the robot's: units, signs or the
 // order of columns (InspectLog). Whatever fits them then is no effect, however
 // well it fits. Each leads a diagnosis. What only scales torques is not among
 // them where `scales` is false: a reference that was recorded alike has it,
 // too.
+std::vector<DataFinding> WrongReadings(const Robot& robot,
+                                       const std::vector<LogSource>& logs,
+                                       const LogReaderOptions& options,
+                                       const ReadingQuestions& questions);
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,

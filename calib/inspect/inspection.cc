@@ -22,7 +22,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr int kMostRows = 1 << 20;
 constexpr int kSamples = 400;
 constexpr int kLeastMoving = 60;
 constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
@@ -30,13 +29,13 @@ constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 class Inspector {
  public:
   Inspector(const Robot& robot, const LogSource& log,
-            const LogReaderOptions& options)
+            const LogReaderOptions& options, int most_rows)
       : robot_(robot), result_(robot) {
     result_.path = log.name;
     LogReaderOptions wanted = options;
     wanted.want_velocity = wanted.commands_do = wanted.currents_do = true;
     LogReader reader(log, wanted);
-    reader.Read(kMostRows, &log_);
+    reader.Read(most_rows, &log_);
     Log more;
     result_.whole = !reader.Read(1, &more);
     result_.spelling = reader.spelling();
@@ -314,8 +313,9 @@ class Inspector {
 }  // namespace
 
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
-                         const LogReaderOptions& options, int drawn_bins) {
-  return Inspector(robot, log, options).Run(drawn_bins);
+                         const LogReaderOptions& options, int drawn_bins,
+                         int most_rows) {
+  return Inspector(robot, log, options, most_rows).Run(drawn_bins);
 }
 
 Log Mended(const Robot& robot, const Log& recorded,

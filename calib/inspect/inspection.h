@@ -54,10 +54,13 @@ struct LogInspection {
   explicit LogInspection(const Robot& robot) : reading(robot) {}
 };
 
+constexpr int kMostInspectedRows = 1 << 20;
+
 // Throws InputError for what cannot be read at all. It is drawn in
-// `drawn_bins`, 0: not at all.
+// `drawn_bins`, 0: not at all. Of a long log the first `most_rows`.
 LogInspection InspectLog(const Robot& robot, const LogSource& log,
-                         const LogReaderOptions& options, int drawn_bins = 0);
+                         const LogReaderOptions& options, int drawn_bins = 0,
+                         int most_rows = kMostInspectedRows);
 
 // The log as the reading has it, with its time in s, or the clock's time, and
 // without what of its jumps can be mended.
