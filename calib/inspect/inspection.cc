@@ -194,6 +194,7 @@ class Inspector {
                      HintsOfPositionUnit(robot_, log_, series.motion().qd)});
     const std::vector<bool> opposite = OppositeVelocities(log_);
     BelieveVelocities(opposite, &found);
+    MergeTorqueSigns(&found.changes);
     result_.reading = found.reading;
     DropRightVelocities(opposite);
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong();

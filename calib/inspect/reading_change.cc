@@ -50,6 +50,33 @@ std::vector<int> JointsOf(const ReadingChange& change) {
   return joints;
 }
 
+void MergeTorqueSigns(std::vector<ReadingChange>* changes) {
+  const auto all = std::find_if(
+      changes->begin(), changes->end(),
+      [](const ReadingChange& c) { return c.kind == Kind::kAllTorqueSigns; });
+  if (all == changes->end()) return;
+  ReadingChange merged = *all;
+  std::vector<ReadingChange> others;
+  for (const ReadingChange& change : *changes) {
+    if (change.kind != Kind::kTorqueSign) {
+      if (change.kind != Kind::kAllTorqueSigns) others.push_back(change);
+      continue;
+    }
+    merged.but.push_back(change.joint);
+    merged.gain += change.gain;
+    merged.held_out_before =
+        std::max(merged.held_out_before, change.held_out_before);
+    merged.held_out_after =
+        std::min(merged.held_out_after, change.held_out_after);
+    merged.probability = std::min(merged.probability, change.probability);
+    merged.alternatives.clear();  // they were of single steps
+  }
+  if (merged.but.empty()) return;
+  std::sort(merged.but.begin(), merged.but.end());
+  others.insert(others.begin(), merged);
+  *changes = others;
+}
+
 bool MoveAlike(const LogReading& a, const LogReading& b) {
   return a.wiring.position_column == b.wiring.position_column &&
          a.wiring.position_sign == b.wiring.position_sign &&

@@ -48,6 +48,8 @@ struct ReadingChange {
   // an arm of two joints is like.
   std::vector<ReadingChange> alternatives{};
   std::string hint{};  // what speaks for it beside torques
+  // Of all torques' signs: the joints whose torques are right as logged.
+  std::vector<int> but{};
 };
 
 // Whether it is the sign of one joint's position or torque alone.
@@ -60,6 +62,9 @@ bool IsAllSigns(ReadingChange::Kind kind);
 bool MayBeEither(const ReadingChange& a, const ReadingChange& b);
 // The joint or joints that it concerns; none where it is all.
 std::vector<int> JointsOf(const ReadingChange& change);
+// All torques turned round and some of them turned round once more are all
+// torques but those: one change, of which no part is false.
+void MergeTorqueSigns(std::vector<ReadingChange>* changes);
 // Whether joints move alike in both, whatever their torques.
 bool MoveAlike(const LogReading& a, const LogReading& b);
 

@@ -49,18 +49,24 @@ std::string FindingWord(Kind kind) {
          (IsOneSign(kind) || IsAllSigns(kind) ? "_sign" : "_order");
 }
 
-std::string JointNames(const ReadingChange& change, const Robot& robot) {
+std::string JointList(const std::vector<int>& joints, const Robot& robot) {
   std::vector<std::string> names;
-  for (const int j : JointsOf(change)) {
-    names.push_back(robot.links[j].joint.name);
-  }
+  for (const int j : joints) names.push_back(robot.links[j].joint.name);
   return Enumeration(names);
+}
+
+std::string JointNames(const ReadingChange& change, const Robot& robot) {
+  return JointList(JointsOf(change), robot);
 }
 
 std::string Phrase(const ReadingChange& change, const Robot& robot) {
   if (IsAllSigns(change.kind)) {
-    return std::string("all ") + SignalOf(change.kind) +
-           "s have the wrong sign";
+    std::string all = std::string("all ") + SignalOf(change.kind) + "s";
+    if (!change.but.empty()) {
+      all += (change.but.size() > 1 ? " but those of " : " but that of ") +
+             JointList(change.but, robot);
+    }
+    return all + " have the wrong sign";
   }
   const std::string signal = std::string("the ") + SignalOf(change.kind);
   const std::string joints = JointNames(change, robot);

@@ -43,6 +43,20 @@ TEST_F(VelocitySignsTest, AllTorquesAreToldAtOnceAndMended) {
   EXPECT_TRUE(Inspect(mended).findings.empty());
 }
 
+// Found as all torques, and the last turned back: that it has the wrong sign
+// would be false.
+TEST_F(VelocitySignsTest, AllTorquesButOneAreOneFinding) {
+  const Log right = InspectedArm("PUMA560 6R").log;
+  arm_ = InspectedArm("PUMA560 6R");
+  options_.joint_names = arm_.robot.JointNames();
+  arm_.log.tau.leftCols(5) *= -1;
+  const LogInspection inspection = Inspect(arm_.log);
+  ASSERT_EQ(inspection.findings.size(), 1u);
+  EXPECT_EQ(inspection.findings[0].sentence,
+            "all torques but that of joint6 have the wrong sign");
+  EXPECT_TRUE(Mended(arm_.robot, arm_.log, inspection).tau.isApprox(right.tau));
+}
+
 TEST_F(VelocitySignsTest, ThoseThatAreOppositeSayThatItIsThePositions) {
   Log wrong = arm_.log;
   wrong.q *= -1;
