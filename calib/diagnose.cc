@@ -11,14 +11,14 @@
 #include "calib/diagnose/modules/modules.h"
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
+#include "calib/diagnose/since_calibration.h"
+#include "calib/diagnosed_calibration.h"
 #include "calib/diagnosed_samples.h"
 #include "calib/force_torque/change.h"
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/reconstructed_torques.h"
-#include "calib/refine/calibration_reader.h"
-#include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/controller_reader.h"
@@ -30,9 +30,8 @@ namespace armcal {
 namespace {
 
 // A file is good to 5 %, and counts for little beside a reference.
-double TrustInFile(const DiagnoseOptions& options) {
-  return options.trust.value_or(
-      options.reference.logs.empty() ? BaselineOptions().trust : .5);
+double TrustInFile(const DiagnoseOptions& options, bool has_reference) {
+  return options.trust.value_or(has_reference ? .5 : BaselineOptions().trust);
 }
 
 std::vector<LogSource> AllLogs(const LogInput& logs,
@@ -48,38 +47,6 @@ std::optional<LogSet> Open(const LogInput& input,
                            const LogReaderOptions& reading) {
   if (input.logs.empty()) return std::nullopt;
   return LogSet(input.logs, reading, input.crop);
-}
-
-std::optional<CalibratedRobot> Calibrated(const Robot& robot,
-                                          const std::string& path,
-                                          BaselineOptions* baseline) {
-  if (path.empty()) return std::nullopt;
-  const std::string file = CalibrationFile(path);
-  CalibratedRobot calibrated = ReadCalibration(file, robot);
-  baseline->posterior = std::make_shared<const ParameterPosterior>(
-      ReadParameterPosterior(file, robot));
-  baseline->transitions = calibrated.transitions;
-  return calibrated;
-}
-
-// What a calibration was fitted to it holds already: logs that are the same
-// would count twice.
-void NoteCalibration(const CalibratedRobot& calibrated,
-                     const std::vector<const LogSet*>& used,
-                     std::vector<DataFinding>* notes) {
-  const std::string flag = OptionName("calibration");
-  if (!calibrated.converged) {
-    notes->push_back({"the calibration had not converged",
-                      "its numbers may be far from the logs'", flag});
-  }
-  for (const LogSet* logs : used) {
-    for (int k = 0; logs != nullptr && k < logs->size(); ++k) {
-      if (!calibrated.Saw(logs->path(k), logs->time_bases()[k].range)) continue;
-      notes->push_back({"the calibration was fitted to " + logs->path(k),
-                        "it agrees with that better than with other logs",
-                        flag + " of other logs"});
-    }
-  }
 }
 
 // The commands of what is held out, for a controller to follow.
@@ -99,7 +66,7 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
   DiagnosisOptions fit;
   fit.without = options.without;
   fit.progress = options.progress;
-  fit.baseline.trust = TrustInFile(options);
+  fit.baseline.trust = TrustInFile(options, !options.reference.logs.empty());
   fit.may_trust_less = !options.trust && options.calibration.empty();
   fit.trust_in_links = options.trust.value_or(fit.trust_in_links);
   fit.bandwidth_hz = options.bandwidth_hz;
@@ -155,7 +122,7 @@ void NoteTrust(double assumed, GapDiagnosis* diagnosis) {
 
 DrawnTorques Draw(const GapDiagnosis& diagnosis, const LogSet& held_out) {
   DrawnTorques drawn;
-  drawn.labels = {diagnosis.has_reference     ? "as in the reference"
+  drawn.labels = {diagnosis.has_reference     ? "as in " + SinceWhat(diagnosis)
                   : diagnosis.has_calibration ? "as calibrated"
                                               : "the robot file",
                   "fitted again"};
@@ -247,6 +214,7 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   json["not_in_urdf"] = corrected.losses;
   json["calibration"] = nullptr;
   if (!options.calibration.empty()) json["calibration"] = options.calibration;
+  json["calibration_logs"] = CalibrationLogsJson(diagnosis);
   json["changes"] = nullptr;
   const std::string losses =
       AddRobotFiles(corrected.files, &json, &summary.files);
@@ -287,13 +255,19 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   reading.joint_names = robot.JointNames();
   reading.want_temperature = reading.want_wrench = true;
   if (options.progress) options.progress("opening the logs", -1);
-  const std::vector<WrongClock> clocks =
-      MendClocks(AllLogs(logs, options), &reading);
-  if (!options.controller.empty()) {
-    ReconstructTorques(robot, options.controller, AllLogs(logs, options),
-                       &reading);
-  }
   DiagnosisOptions fit = FitOptions(options);
+  const std::optional<CalibratedRobot> calibrated =
+      ReadDiagnosedCalibration(robot, options.calibration, &fit.baseline);
+  std::vector<LogSource> all = AllLogs(logs, options);
+  CalibrationLogs own;
+  if (calibrated && options.reference.logs.empty()) {
+    own = ReadableLogs(options.calibration, *calibrated, all, reading);
+  }
+  all.insert(all.end(), own.input.logs.begin(), own.input.logs.end());
+  const std::vector<WrongClock> clocks = MendClocks(all, &reading);
+  if (!options.controller.empty()) {
+    ReconstructTorques(robot, options.controller, all, &reading);
+  }
   if (!clocks.empty()) LeaveOutLaws(&fit.without);
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
@@ -302,16 +276,13 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();
     looking.run([&, scales] {
-      wrong_readings =
-          WrongReadings(robot, AllLogs(logs, options), reading, scales);
+      wrong_readings = WrongReadings(robot, all, reading, scales);
     });
     fit.wrong_readings = [&] {
       looking.wait();
       return wrong_readings;
     };
   }
-  const std::optional<CalibratedRobot> calibrated =
-      Calibrated(robot, options.calibration, &fit.baseline);
   const LogSet training(logs.logs, reading, logs.crop);
   const std::optional<LogSet> reference = Open(options.reference, reading);
   const std::optional<LogSet> validation = Open(options.validation, reading);
@@ -319,20 +290,24 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
                 &fit);
   const LogSet* held_out = validation ? &*validation : nullptr;
   const LogSet* before = reference ? &*reference : nullptr;
-  auto details = std::make_shared<GapDiagnosis>(DiagnoseGap(
-      calibrated ? calibrated->robot : robot, fit, training, held_out, before));
-  NoteTrust(fit.baseline.trust, details.get());
+  const Robot& known = calibrated ? calibrated->robot : robot;
+  const std::optional<LogSet> beside = Open(own.input, reading);
+  auto details = std::make_shared<GapDiagnosis>(
+      beside ? DiagnoseSinceCalibration(known, fit, TrustInFile(options, true),
+                                        training, held_out, *beside)
+             : DiagnoseGap(known, fit, training, held_out, before));
+  if (fit.may_trust_less) NoteTrust(fit.baseline.trust, details.get());
   AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {
-    NoteCalibration(*calibrated, {&training, held_out, before}, &details->data);
+    NoteCalibration(*calibrated, own, {&training, held_out, before},
+                    details.get());
   }
   const std::optional<LogChanges> changes =
       ChangesOf(robot, logs, reading, options);
   // They hold what is told of friction and offsets in fewer logs.
   if (changes && changes->refusal.empty()) details->drifts.clear();
   const std::optional<ForceTorqueChange> sensor = ForceTorqueChangeOf(
-      calibrated ? calibrated->robot : robot, details->bandwidth_hz,
-      options.progress, training, before);
+      known, details->bandwidth_hz, options.progress, training, before);
   DiagnoseSummary summary =
       Summarise(robot, options, changes, sensor, NamesOf(logs.logs), *details);
   if (options.draw_torques) {
@@ -340,6 +315,9 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
         Draw(*details, validation ? *validation : training));
   }
   summary.details = std::move(details);
+  for (const LogSource& log : own.input.logs) {
+    summary.calibration_logs.push_back(log.path());
+  }
   return summary;
 }
 

@@ -69,6 +69,8 @@ struct DiagnoseSummary : Summary {
   std::string verdict;                   // "explained" .. (docs/diagnose.md)
   std::vector<DiagnosedEffect> effects;  // strongest first
   Robot robot;                           // fitted, with what a robot can hold
+  // Paths of the calibration's own logs, which were read as well.
+  std::vector<std::string> calibration_logs;
   // Of what is held out, where they are drawn; null: not asked for.
   std::shared_ptr<const DrawnTorques> torques;
   std::shared_ptr<const GapDiagnosis> details;

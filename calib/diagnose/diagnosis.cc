@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -51,6 +52,7 @@ class Diagnoser {
     BaselineOptions options = options_.baseline;
     options.trust = result_.trust;
     options.file = &robot_;
+    options.posterior_deviations = posterior_deviations_;
     return options;
   }
   // Steps whose length depends on what is found.
@@ -80,6 +82,7 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   const double bandwidth_hz_;
+  double posterior_deviations_ = 1;
   double delay_ = 0;            // of recorded torque, s, that was undone
   VectorXd usual_temperature_;  // deg C
   std::optional<GapBaseline> baseline_;
@@ -135,6 +138,10 @@ void Diagnoser::FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
     if (!given_up && options_.may_trust_less && result_.trust == given) {
       result_.trust *= LikeliestTrust(*fit_);
       again |= result_.trust > given;
+    }
+    if (options_.baseline.posterior != nullptr && posterior_deviations_ == 1) {
+      posterior_deviations_ = LikeliestPosterior(*fit_);
+      again |= posterior_deviations_ > 1;
     }
     if (!again) return;
     const Robot robot = baseline_->robot();
@@ -359,9 +366,11 @@ void Diagnoser::Simulate(const LogSet& held_out, bool split) {
 
 void Diagnoser::Judge() {
   if (options_.wrong_readings) result_.data = options_.wrong_readings();
-  for (DataFinding& computed : AuditTorque(robot_, fit_->rows())) {
-    result_.data.push_back(std::move(computed));
-  }
+  const auto add = [&](std::vector<DataFinding> findings) {
+    std::move(findings.begin(), findings.end(),
+              std::back_inserter(result_.data));
+  };
+  add(AuditTorque(robot_, fit_->rows()));
   const bool testable = result_.data.empty();
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
@@ -369,14 +378,8 @@ void Diagnoser::Judge() {
   if (!result_.not_of_reference.empty()) {
     result_.data.push_back(OtherThanReference(result_.not_of_reference));
   }
-  for (DataFinding& spikes :
-       TellPositionSpikes(robot_, fit_->rows().segments())) {
-    result_.data.push_back(std::move(spikes));
-  }
-  for (DataFinding& burst :
-       TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_)) {
-    result_.data.push_back(std::move(burst));
-  }
+  add(TellPositionSpikes(robot_, fit_->rows().segments()));
+  add(TellTorqueBursts(robot_, fit_->rows().segments(), bandwidth_hz_));
   if (!testable) {
     result_.verdict = GapVerdict::kNotTestable;
     result_.effects.clear();

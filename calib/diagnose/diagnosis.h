@@ -68,6 +68,10 @@ struct GapDiagnosis {
   NoiseFloor floor = NoiseFloor::kAssumed;
   bool has_reference = false;
   bool has_calibration = false;  // whether the robot is a calibrated one
+  // What the logs that it was calibrated on stand for
+  // (DiagnoseSinceCalibration).
+  enum class CalibrationsLogs { kUnknown, kHaveItToo, kAreTheReference };
+  CalibrationsLogs calibrations_logs = CalibrationsLogs::kUnknown;
   GapFigures torque;
   std::optional<ForwardGap> forward;
   // What the file gives no joint at all, or has wrong on many joints.

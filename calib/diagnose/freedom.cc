@@ -167,11 +167,23 @@ bool HoldNegative(const GapFit& fit, MissingTerms* missing) {
   return any;
 }
 
+namespace {
+
+// Of these columns of the baseline given what is chosen, by half decades.
+double LikeliestScaleOf(const GapFit& fit, const std::vector<int>& columns) {
+  // Torques that were reconstructed keep the noise of their positions.
+  if (!fit.rows().has_evidence()) return 1;
+  const GapScreen chosen =
+      fit.screen().Only(ColumnsOf(fit.candidates(), fit.selection().chosen));
+  return LikeliestScale(chosen, fit.regression().evidence(), columns,
+                        {1, 3, 10});
+}
+
+}  // namespace
+
 // By half decades, from the 5 % of a file taken at its word to the 50 % that
 // calibrations give one.
 double LikeliestTrust(const GapFit& fit) {
-  // Torques that were reconstructed keep the noise of their positions.
-  if (!fit.rows().has_evidence()) return 1;
   const GapBaseline& baseline = fit.baseline();
   std::vector<int> inertial;
   for (int c = 0; c < baseline.size(); ++c) {
@@ -179,10 +191,11 @@ double LikeliestTrust(const GapFit& fit) {
         baseline.columns()[c].kind == BaselineColumn::Kind::kInertial;
     if (is_inertial) inertial.push_back(c);
   }
-  const GapScreen chosen =
-      fit.screen().Only(ColumnsOf(fit.candidates(), fit.selection().chosen));
-  return LikeliestScale(chosen, fit.regression().evidence(), inertial,
-                        {1, 3, 10});
+  return LikeliestScaleOf(fit, inertial);
+}
+
+double LikeliestPosterior(const GapFit& fit) {
+  return LikeliestScaleOf(fit, fit.baseline().prior().which());
 }
 
 }  // namespace armcal

@@ -47,4 +47,7 @@ bool HoldNegative(const GapFit& fit, MissingTerms* missing);
 // throughout no single effect does (type II maximum likelihood, MacKay 1992).
 double LikeliestTrust(const GapFit& fit);
 
+// The same of the deviations of a calibration's posterior.
+double LikeliestPosterior(const GapFit& fit);
+
 }  // namespace armcal

@@ -270,8 +270,13 @@ std::string Next(const GapDiagnosis& diagnosis) {
 // Laws of the reference with their values, and by name those that help to
 // predict it but share their torque with others.
 std::string ReferenceShows(const GapDiagnosis& diagnosis) {
+  const bool of_calibration = diagnosis.calibrations_logs ==
+                              GapDiagnosis::CalibrationsLogs::kAreTheReference;
   std::string text =
-      diagnosis.shown.empty() ? "" : "\nthe reference itself shows\n";
+      diagnosis.shown.empty() ? ""
+      : of_calibration
+          ? "\nwhat the calibrated robot lacks, as its own logs show\n"
+          : "\nthe reference itself shows\n";
   std::vector<std::string> others;
   for (const ShownEffect& shown : diagnosis.shown) {
     const std::string name = NameOf(*shown.effect, shown.joint, diagnosis);

@@ -238,8 +238,8 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
       return AnyZeroMoved(diagnosis)
                  ? "Nothing but these, friction and timing has changed."
              : diagnosis.has_reference
-                 ? "Nothing but friction and timing has changed since the "
-                   "reference."
+                 ? "Nothing but friction and timing has changed since " +
+                       SinceWhat(diagnosis) + "."
                  : "Nothing is missing in the model but better values: "
                    "refitting its parameters brings it down to " +
                        OfNoise(diagnosis.torque.refit) + ".";
@@ -270,7 +270,9 @@ std::string NameOf(const Effect& effect, int joint,
 bool IsConfident(double probability) { return probability >= .8; }
 
 std::string SinceWhat(const GapDiagnosis& diagnosis) {
-  if (diagnosis.has_reference) return "the reference";
+  const bool is_calibrations = diagnosis.calibrations_logs ==
+                               GapDiagnosis::CalibrationsLogs::kAreTheReference;
+  if (diagnosis.has_reference && !is_calibrations) return "the reference";
   return diagnosis.has_calibration ? "the calibration" : "";
 }
 

@@ -2,6 +2,11 @@
 
 #include <openssl/evp.h>
 
+#include <array>
+#include <fstream>
+
+#include "model/text/input_error.h"
+
 namespace armcal {
 
 Sha256::Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
@@ -31,6 +36,20 @@ std::string HexText(const Sha256::Digest& digest) {
     text += "0123456789abcdef"[byte & 15];
   }
   return text;
+}
+
+FileHash HashOfFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(path, "", "", "cannot be read");
+  FileHash result;
+  Sha256 hash;
+  std::array<char, 1 << 16> block{};
+  while (file.read(block.data(), block.size()), file.gcount() > 0) {
+    hash.Add({block.data(), static_cast<size_t>(file.gcount())});
+    result.bytes += file.gcount();
+  }
+  result.sha256 = HexText(hash.Value());
+  return result;
 }
 
 }  // namespace armcal

@@ -26,4 +26,12 @@ Sha256::Digest Sha256Of(std::string_view bytes);
 // As `sha256sum` prints it.
 std::string HexText(const Sha256::Digest& digest);
 
+// Of a file's bytes.
+struct FileHash {
+  std::string sha256;
+  long bytes = 0;
+};
+// Throws InputError where the file cannot be read.
+FileHash HashOfFile(const std::string& path);
+
 }  // namespace armcal

@@ -130,6 +130,9 @@ struct Effect {
   std::string if_joints_disagree;
   // Of all joints: the effect that looks so where each joint has it.
   std::string if_of_each_joint;
+  // Of all joints: whether it moves the time at which friction changes sign, as
+  // each joint's own friction may by itself.
+  bool moves_reversals = false;
   // How it is made visible: the experiment a report proposes.
   std::string experiment;
 };

@@ -96,6 +96,7 @@ CommandOutcome RunDiagnose(const CommandInput& input) {
     for (const std::string& name : NamesOf(more->logs)) files.push_back(name);
   }
   if (!options.calibration.empty()) files.push_back(options.calibration);
+  for (const std::string& log : summary.calibration_logs) files.push_back(log);
   AddReport(
       input, "diagnose", robot, summary.json, files,
       [&](ReportContent* content) {

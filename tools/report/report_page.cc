@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <fstream>
 #include <limits>
 #include <string_view>
 
@@ -63,17 +62,8 @@ std::string Element(const std::string& tag, const std::string& attributes,
 }  // namespace
 
 SourceFile HashFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(path, "", "", "cannot be read");
-  SourceFile source{path, "", 0};
-  Sha256 hash;
-  std::array<char, 1 << 16> block{};
-  while (file.read(block.data(), block.size()), file.gcount() > 0) {
-    hash.Add({block.data(), static_cast<size_t>(file.gcount())});
-    source.bytes += file.gcount();
-  }
-  source.sha256 = HexText(hash.Value());
-  return source;
+  const FileHash hash = HashOfFile(path);
+  return {path, hash.sha256, hash.bytes};
 }
 
 SourceFile HashDocument(const Document& document) {

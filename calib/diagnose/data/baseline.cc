@@ -114,8 +114,8 @@ GapBaseline::GapBaseline(const Robot& robot, const BaselineOptions& options,
   }
   columns_.push_back({BaselineColumn::Kind::kTiming, -1, 0, options.timing_s});
   if (options.posterior == nullptr) return;
-  prior_ = CalibratedPrior(*options.posterior, robot_, columns_,
-                           options.of_another_day);
+  prior_ = CalibratedPrior(*options.posterior, options.posterior_deviations,
+                           robot_, columns_, options.of_another_day);
 }
 
 GapBaseline GapBaseline::MovedTo(const VectorXd& x) const {
@@ -255,6 +255,12 @@ void GapBaseline::AddReversal(int j, double timing) {
   columns_.push_back({BaselineColumn::Kind::kReversal, j, 0, spread});
 }
 
+VectorXd GapBaseline::LateReversals(int j, const RecordedTorque& torque) const {
+  const Motion& motion = torque.motion();
+  return -Differentiate(
+      TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j), motion.dt);
+}
+
 // Joint j's torque per unit of a column; empty where it has none. An inertial
 // parameter of link k acts on all joints up to it, others on their own joint
 // only; the column of the delay is the slope of the torque in time, on all
@@ -281,10 +287,7 @@ VectorXd GapBaseline::FineColumn(const BaselineColumn& column, int j,
              TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j);
     }
     case BaselineColumn::Kind::kReversal:
-      if (!own) return {};
-      return -Differentiate(
-          TermTorque(JointTerm::kCoulomb, transitions_[j], motion, j),
-          motion.dt);
+      return own ? LateReversals(j, torque) : VectorXd();
     case BaselineColumn::Kind::kTiming:
       return SlopeByDelay(torque.nominal().col(j), motion.torque.OfJoint(j),
                           motion.dt);

@@ -41,6 +41,8 @@ struct BaselineOptions {
   // its joints' Coulomb friction changes sign. Null: the robot is its file's.
   std::shared_ptr<const ParameterPosterior> posterior;
   std::vector<CoulombTransition> transitions;
+  // How many of its standard deviations another log's values are off by.
+  double posterior_deviations = 1;
   // Whether the logs to be fitted are of another day than the calibration's.
   bool of_another_day = false;
 };
@@ -86,6 +88,9 @@ class GapBaseline {
   const KnownEffects& known() const { return known_; }
   // The first of their columns.
   int known_begin() const { return known_begin_; }
+  // What Coulomb friction of unit size on joint j adds, to first order, where
+  // it changes sign 1 s later than the recorded velocity does.
+  Eigen::VectorXd LateReversals(int j, const RecordedTorque& torque) const;
   // By how much recorded torque is later than the motion, s.
   double DelayAt(const Eigen::VectorXd& x) const;
 

@@ -39,10 +39,10 @@ double VarianceOfDays(const Parameter& parameter, const Robot& robot) {
 // from day to day besides, which is independent of what the calibration does
 // not know.
 ColumnPrior CalibratedPrior(const ParameterPosterior& posterior,
-                            const Robot& robot,
+                            double deviations, const Robot& robot,
                             const std::vector<BaselineColumn>& columns,
                             bool another_day) {
-  MatrixXd covariance = posterior.covariance;
+  MatrixXd covariance = deviations * deviations * posterior.covariance;
   std::vector<int> which, told;
   std::vector<double> unit;
   for (int c = 0; c < static_cast<int>(columns.size()); ++c) {

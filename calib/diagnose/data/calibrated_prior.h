@@ -10,10 +10,11 @@
 namespace armcal {
 
 // What a calibration's posterior says of the columns of its robot, in their
-// units. `another_day`: the logs that are fitted next are of another day, whose
-// friction may differ from the calibration's.
+// units, its deviations times `deviations`. `another_day`: the logs that are
+// fitted next are of another day, whose friction may differ from the
+// calibration's.
 ColumnPrior CalibratedPrior(const ParameterPosterior& posterior,
-                            const Robot& robot,
+                            double deviations, const Robot& robot,
                             const std::vector<BaselineColumn>& columns,
                             bool another_day);
 

@@ -179,8 +179,8 @@ MatrixXd GapRows::Thin(int segment, const MatrixXd& signal) const {
                                bandwidth_hz_));
 }
 
-MatrixXd GapRows::Thin(int segment,
-                       const std::vector<const VectorXd*>& signals) const {
+MatrixXd GapRows::Thin(
+    int segment, const std::vector<const Eigen::VectorXd*>& signals) const {
   return ThinnedLowPass(signals, 1 / segments_[segment].motion.dt,
                         bandwidth_hz_, skip_[segment], stride_[segment],
                         thin_begin_[segment + 1] - thin_begin_[segment]);

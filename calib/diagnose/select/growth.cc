@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/evidence_noise.h"
 #include "calib/diagnose/select/selection.h"
@@ -94,12 +95,13 @@ int Likeliest(const VectorXd& scores, const VectorXd& explained, double all,
                       : best_beyond(-std::numeric_limits<double>::infinity());
 }
 
-// 2 log of the odds of a set with these as well against it alone (`smaller`),
-// less their penalties.
+// 2 log of the odds of a set with these candidates and columns (of one joint
+// each) as well against it alone (`smaller`), less their penalties.
 double ScoreTogether(const GapRegression& regression,
                      const std::vector<GapCandidate>& candidates,
                      const std::vector<int>& set, const GapScreen& smaller,
-                     const std::vector<int>& together) {
+                     const std::vector<int>& together,
+                     const std::vector<JointRows>& columns = {}) {
   const GapScreen& screen = regression.screen();
   std::vector<int> more = set;
   double penalty = 0;
@@ -108,7 +110,14 @@ double ScoreTogether(const GapRegression& regression,
     more.push_back(c);
     penalty += Penalty(screen, candidates[c]);
   }
-  const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  GapScreen larger = screen.Only(ColumnsOf(candidates, more));
+  for (const JointRows& column : columns) {
+    for (const VectorXd& rows : column) {
+      if (rows.size() > 0) penalty += std::log(rows.size());
+    }
+    larger.AddColumn(column);
+  }
+  larger.Factor();
   return CompareLarger(smaller, larger, regression.evidence()).odds - penalty;
 }
 
@@ -155,28 +164,54 @@ bool HaveZerosMoved(const GapRegression& regression,
   return needed >= Limits().several_joints;
 }
 
-// Whether candidate c, of all joints and with these odds less its penalty, is
-// less likely than what looks so where each joint has it
-// (Effect::if_of_each_joint): of each joint the shape that scores best by
-// itself. One number for all joints costs less than one for each, and of few
-// effects that a selection may have it explains the most; so that it would
-// stand for all of them.
-bool IsOfEachJoint(const GapRegression& regression,
-                   const std::vector<GapCandidate>& candidates,
-                   const SelectionOptions& options, const std::vector<int>& set,
-                   const GapScreen& smaller, int c, double odds) {
-  const std::string& name = candidates[c].effect->if_of_each_joint;
-  if (name.empty()) return false;
+// Of each joint the candidate of this effect that scores best by itself.
+std::vector<int> BestOfEachJoint(const GapRegression& regression,
+                                 const std::vector<GapCandidate>& candidates,
+                                 const SelectionOptions& options,
+                                 const std::vector<int>& set,
+                                 const std::string& name) {
   const GapScreen& screen = regression.screen();
   const VectorXd scores = ScoresGiven(screen, candidates, options, set, -1);
   std::vector<int> best(screen.num_joints(), -1);
   for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-    if (candidates[k].effect->name != name || std::isinf(scores[k])) continue;
+    if (name.empty() || candidates[k].effect->name != name ||
+        std::isinf(scores[k]))
+      continue;
     int& of_joint = best[candidates[k].joint];
     if (of_joint < 0 || scores[k] > scores[of_joint]) of_joint = k;
   }
   best.erase(std::remove(best.begin(), best.end(), -1), best.end());
-  return ScoreTogether(regression, candidates, set, smaller, best) > odds;
+  return best;
+}
+
+// Whether candidate c, of all joints and with these odds less its penalty, is
+// less likely than what looks so where each joint has it by itself:
+//   - another effect (Effect::if_of_each_joint), of each joint the shape that
+//     scores best;
+//   - friction that changes sign earlier or later than the recorded velocity,
+//     by a time of each joint's own, where inertia and gravity are in time
+//     (Effect::moves_reversals): friction that yields before it breaks away,
+//     that creeps, or that a simulator keeps smooth;
+//   - both.
+// One number for all joints costs less than one for each, and of few effects
+// that a selection may have it explains the most; so that it would stand for
+// all of them.
+bool IsOfEachJoint(const GapRegression& regression,
+                   const std::vector<GapCandidate>& candidates,
+                   const SelectionOptions& options, const std::vector<int>& set,
+                   const GapScreen& smaller, int c, double odds) {
+  const Effect& effect = *candidates[c].effect;
+  const auto score = [&](const std::vector<int>& others,
+                         const std::vector<JointRows>& columns) {
+    return ScoreTogether(regression, candidates, set, smaller, others, columns);
+  };
+  const std::vector<int> others = BestOfEachJoint(
+      regression, candidates, options, set, effect.if_of_each_joint);
+  if (!others.empty() && score(others, {}) > odds) return true;
+  if (!effect.moves_reversals) return false;
+  const std::vector<JointRows> late =
+      LateFriction(regression.baseline(), *regression.data());
+  return score({}, late) > odds || score(others, late) > odds;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
@@ -354,19 +355,10 @@ ReferenceScatter GapRegression::ScatterOf(const GapCandidate& effect) const {
   return PooledScatter(own, others);
 }
 
-// With c the effect's torque and r what is left of the reference's, both
-// whitened as its evidence is and less what the baseline absorbs of them, an
-// effect of this size lowers chi squared by
-//   |r|^2 - |r - c|^2 = 2 c' r - c' c,
-// which is positive where the reference shows more than half of it.
 double GapRegression::OddsInReference(const GapCandidate& effect) const {
   if (!reference_) return 0;
-  GapScreen screen = reference_->Screen();
-  const int c = screen.AddColumn(
-      WhitenEach(reference_->rows(),
-                 EffectTorque(baseline_, scale_, {effect}, reference_.get())));
-  screen.Factor();
-  return 2 * screen.g()[c] - screen.G()(c, c);
+  return ShareIn(baseline_, scale_, effect, baseline_.size(), reference_.get())
+      .odds();
 }
 
 JointRows GapRegression::TorqueOf(

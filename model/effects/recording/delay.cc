@@ -29,6 +29,7 @@ Effect Delay() {
       "friction that lags at reversals (presliding) or play of some joints "
       "(backlash)";
   effect.if_of_each_joint = "presliding";
+  effect.moves_reversals = true;
   effect.experiment = "fast motion of small amplitude";
   return effect;
 }

@@ -88,6 +88,13 @@ TEST_F(CalibratedPriorTest, IsTheCalibrationsCovariance) {
   EXPECT_NEAR(covariance(0, 1), 0, 1e-9);
 }
 
+TEST_F(CalibratedPriorTest, AnotherLogMayBeFurtherOff) {
+  options_.posterior_deviations = 3;
+  const MatrixXd covariance = Covariance(Baseline());
+  EXPECT_NEAR(covariance(0, 0), 9 * kMassStddev * kMassStddev, 1e-9);
+  EXPECT_NEAR(covariance(0, 2), -9 * .9 * kMassStddev * kArmatureStddev, 1e-9);
+}
+
 // Viscous friction scatters by a tenth from day to day: .2 of 2.
 TEST_F(CalibratedPriorTest, FrictionOfAnotherDayIsWider) {
   options_.of_another_day = true;

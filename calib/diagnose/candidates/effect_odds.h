@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/data/data.h"
+
+namespace armcal {
+
+// What friction adds where it changes sign 1 s later than the recorded velocity
+// does, to first order: one joint's in each, whitened; none of joints without
+// friction.
+std::vector<JointRows> LateFriction(const GapBaseline& baseline,
+                                    const GapData& data);
+
+// How much of an effect logs have, and how well they tell it.
+struct ShareOfEffect {
+  double share = 0;       // 1: all of it
+  double delta_chi2 = 0;  // by which chi squared falls with the effect at size
+
+  // 2 log of the odds that they have the effect at this size, against that
+  // they have none of it: by how much it lowers chi squared.
+  double odds() const { return (2 * share - 1) * delta_chi2; }
+};
+
+// Of an effect at its size in logs of which the baseline's first `columns` are
+// free.
+ShareOfEffect ShareIn(const GapBaseline& baseline, const MotionScale& scale,
+                      const GapCandidate& effect, int columns, GapData* data);
+
+}  // namespace armcal
