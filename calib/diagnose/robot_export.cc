@@ -242,15 +242,16 @@ RobotExport ExportCorrectedRobot(
     const CorrectedRobot& corrected, const Robot& file, const Document& urdf,
     const std::string& base, const std::vector<const RobotFormat*>& formats) {
   RobotExport result;
-  const RobotFormat of_urdf = UrdfFormat();
+  const bool is_new = urdf.name().empty();
+  const RobotFormat of_urdf = is_new ? UrdfFormat() : UpdatedUrdfFormat();
   const RobotDescription description =
       Describe(corrected, file, of_urdf, &result.losses);
   const Robot& robot = description.robot;
   AddLosses(corrected, of_urdf, description, &result.losses);
   const std::string text =
-      urdf.name().empty()
-          ? MakeUrdf(robot)
-          : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base);
+      is_new ? MakeUrdf(robot)
+             : UpdateUrdf(urdf, robot, !SameGeometry(robot, file), base,
+                          &result.losses);
   result.urdf = Commented(of_urdf, text, corrected);
   for (const RobotFormat* format : formats) {
     result.files.push_back(MakeFile(corrected, file, *format));
