@@ -49,6 +49,15 @@ std::optional<LogSet> Open(const LogInput& input,
   return LogSet(input.logs, reading, input.crop);
 }
 
+// A calibration's own logs, beside which no reference is given.
+CalibrationLogs LogsBeside(const std::optional<CalibratedRobot>& calibrated,
+                           const std::vector<LogSource>& used,
+                           const LogReaderOptions& reading,
+                           const DiagnoseOptions& options) {
+  if (!calibrated || !options.reference.logs.empty()) return {};
+  return ReadableLogs(options.calibration, *calibrated, used, reading);
+}
+
 // The commands of what is held out, for a controller to follow.
 void SetController(const Robot& robot, const LogInput& held_out,
                    const DiagnoseOptions& options,
@@ -259,10 +268,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const std::optional<CalibratedRobot> calibrated =
       ReadDiagnosedCalibration(robot, options.calibration, &fit.baseline);
   std::vector<LogSource> all = AllLogs(logs, options);
-  CalibrationLogs own;
-  if (calibrated && options.reference.logs.empty()) {
-    own = ReadableLogs(options.calibration, *calibrated, all, reading);
-  }
+  const CalibrationLogs own = LogsBeside(calibrated, all, reading, options);
   all.insert(all.end(), own.input.logs.begin(), own.input.logs.end());
   const std::vector<WrongClock> clocks = MendClocks(all, &reading);
   if (!options.controller.empty()) {

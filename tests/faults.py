@@ -235,9 +235,11 @@ def without_memory():
                            '(ulimit -v) do not suffice')
         # 127: the system's loader has not even got armcal into memory; or a
         # library could not make its static objects, before main() says what
-        # happens to exceptions.
+        # happens to exceptions; or libgfortran could not, which says so itself.
         before_main = code == 127 or (
-            code == -signal.SIGABRT and 'terminate called' in finished.stderr)
+            code == -signal.SIGABRT and 'terminate called' in finished.stderr) or (
+            code == 1 and finished.stderr.startswith('Operating system error: ')
+            and 'Memory allocation failed' in finished.stderr)
         expect(code in (0, 3) or before_main, f'{megabytes} MB', finished)
         expect(results() == before, f'the results with {megabytes} MB')
         counts[code] = counts.get(code, 0) + 1

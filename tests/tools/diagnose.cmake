@@ -160,7 +160,7 @@ run("the calibrated robot" diagnose ${poor} --calibration=calibrated
     --log=unchanged/log.csv --out=out)
 expect_code(0)
 expect_empty(err)
-foreach(list effects ladder data)
+foreach(list effects ladder)
   json(${list})
   string(JSON found LENGTH "${text}" ${list})
   if(NOT found EQUAL 0)
@@ -168,6 +168,9 @@ foreach(list effects ladder data)
   endif()
 endforeach()
 expect_json(calibrated calibration)
+expect_json(reference calibration_logs)
+expect_json("the calibration's own logs are the reference (before/log.csv)"
+            data 0 finding)
 expect_between(.5 2 gap torque nominal)
 run("what hangs on the calibrated robot" diagnose ${poor}
     --calibration=calibrated/calibration.json --log=after/log.csv --out=out)
@@ -179,6 +182,12 @@ run("what its motor lacks" diagnose ${poor} --calibration=calibrated
     --log=rippled/log.csv --out=out)
 expect_json(torque_ripple effects 0 effect)
 expect_json(2 effects 0 joint_index)
+file(RENAME ${WORK_DIR}/before ${WORK_DIR}/elsewhere)
+run("without its own logs" diagnose ${poor} --calibration=calibrated
+    --log=after/log.csv --out=out)
+expect_json(payload effects 0 effect)
+expect_json("the calibration's own logs are not known" data 0 finding)
+file(RENAME ${WORK_DIR}/elsewhere ${WORK_DIR}/before)
 run("since a reference, too" diagnose ${poor} --calibration=calibrated
     --reference=unchanged/log.csv --log=after/log.csv --out=out)
 expect_json(payload effects 0 effect)
