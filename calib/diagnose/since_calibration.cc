@@ -98,12 +98,13 @@ GapDiagnosis DiagnoseSinceCalibration(const Robot& calibrated,
   DiagnosisOptions beside = options;
   beside.baseline.posterior = nullptr;
   beside.baseline.trust = trust_beside_own;
-  if (IsWhatTheModelLacks(calibrated, beside, lacks, own)) {
+  GapDiagnosis changed =
+      DiagnoseGap(calibrated, beside, training, validation, &own);
+  if (changed.effects.empty() &&
+      IsWhatTheModelLacks(calibrated, beside, lacks, own)) {
     lacks.calibrations_logs = GapDiagnosis::CalibrationsLogs::kHaveItToo;
     return lacks;
   }
-  GapDiagnosis changed =
-      DiagnoseGap(calibrated, beside, training, validation, &own);
   changed.has_calibration = true;
   changed.calibrations_logs = GapDiagnosis::CalibrationsLogs::kAreTheReference;
   return changed;

@@ -6,14 +6,14 @@ namespace armcal {
 
 // Diagnoses the gap between a calibrated robot and logs, given the logs that it
 // was calibrated on (`own`), which tell two questions apart:
-//   - What does the model lack? Effects that the diagnosed logs ask for, if the
-//     robot's own logs have them at that size, too. Then these are the answer.
-//   - What has changed since? What the own logs do not have either is asked for
-//     again with them as the reference, so that what they show besides the
-//     model is no change.
-// The former is a claim that a second log of the robot confirms; the latter is
-// no claim about what the model lacks. `options` hold the calibration's
-// posterior; that of a reference, `trust_beside_own`, replaces it in the second
+//   - What has changed since? Asked with the own logs as the reference, so that
+//     what they show besides the model is no change. What is named is the
+//     answer.
+//   - Else: what does the model lack? Effects that the diagnosed logs ask for,
+//     if the own logs have them at that size, too.
+// The latter is a claim that a second log of the robot confirms; the former is
+// none about what the model lacks. `options` hold the calibration's
+// posterior; that of a reference, `trust_beside_own`, replaces it in the first
 // question, since its logs are fitted there and would count twice.
 GapDiagnosis DiagnoseSinceCalibration(const Robot& calibrated,
                                       const DiagnosisOptions& options,

@@ -164,7 +164,8 @@ bool HaveZerosMoved(const GapRegression& regression,
   return needed >= Limits().several_joints;
 }
 
-// Of each joint the candidate of this effect that scores best by itself.
+// Of each joint the candidate of this effect that scores best by itself; none
+// where no effect has that name.
 std::vector<int> BestOfEachJoint(const GapRegression& regression,
                                  const std::vector<GapCandidate>& candidates,
                                  const SelectionOptions& options,
@@ -174,9 +175,7 @@ std::vector<int> BestOfEachJoint(const GapRegression& regression,
   const VectorXd scores = ScoresGiven(screen, candidates, options, set, -1);
   std::vector<int> best(screen.num_joints(), -1);
   for (int k = 0; k < static_cast<int>(candidates.size()); ++k) {
-    if (name.empty() || candidates[k].effect->name != name ||
-        std::isinf(scores[k]))
-      continue;
+    if (candidates[k].effect->name != name || std::isinf(scores[k])) continue;
     int& of_joint = best[candidates[k].joint];
     if (of_joint < 0 || scores[k] > scores[of_joint]) of_joint = k;
   }
