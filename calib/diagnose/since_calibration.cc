@@ -92,22 +92,20 @@ GapDiagnosis DiagnoseSinceCalibration(const Robot& calibrated,
                                       const LogSet& training,
                                       const LogSet* validation,
                                       const LogSet& own) {
-  GapDiagnosis lacks =
-      DiagnoseGap(calibrated, options, training, validation, nullptr);
-  if (lacks.verdict == GapVerdict::kNotTestable) return lacks;
   DiagnosisOptions beside = options;
   beside.baseline.posterior = nullptr;
   beside.baseline.trust = trust_beside_own;
   GapDiagnosis changed =
       DiagnoseGap(calibrated, beside, training, validation, &own);
-  if (changed.effects.empty() &&
-      IsWhatTheModelLacks(calibrated, beside, lacks, own)) {
-    lacks.calibrations_logs = GapDiagnosis::CalibrationsLogs::kHaveItToo;
-    return lacks;
-  }
   changed.has_calibration = true;
   changed.calibrations_logs = GapDiagnosis::CalibrationsLogs::kAreTheReference;
-  return changed;
+  if (!changed.effects.empty()) return changed;
+  GapDiagnosis lacks =
+      DiagnoseGap(calibrated, options, training, validation, nullptr);
+  if (lacks.verdict == GapVerdict::kNotTestable) return lacks;
+  if (!IsWhatTheModelLacks(calibrated, beside, lacks, own)) return changed;
+  lacks.calibrations_logs = GapDiagnosis::CalibrationsLogs::kHaveItToo;
+  return lacks;
 }
 
 }  // namespace armcal
