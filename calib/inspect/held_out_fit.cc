@@ -79,6 +79,16 @@ HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples) {
   return result;
 }
 
+HeldOutFit OfColumns(const HeldOutFit& fit, const std::vector<int>& column) {
+  HeldOutFit sorted = fit;
+  for (size_t j = 0; j < column.size(); ++j) {
+    const auto from = static_cast<Eigen::Index>(j);
+    sorted.joints.col(column[j]) = fit.joints.col(from);
+    sorted.variation[column[j]] = fit.variation[from];
+  }
+  return sorted;
+}
+
 bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
                      const std::vector<int>& of) {
   if (!(changed.residual_percent < as_is.residual_percent)) return false;
@@ -126,6 +136,12 @@ bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed) {
     }
   }
   return changed.residual_percent < as_is.residual_percent;
+}
+
+bool IsBetterInTotal(const HeldOutFit& as_is, const HeldOutFit& changed) {
+  return ((1 + kHalf) * (changed.all.array() + kLeastRelative) <
+          as_is.all.array() + kLeastRelative)
+      .all();
 }
 
 }  // namespace armcal

@@ -40,6 +40,10 @@ struct HeldOutFit {
 };
 HeldOutFit FitHeldOut(const Robot& robot, const WiringSamples& samples);
 
+// The same with joint j's figures at column[j]: those of a logged torque are
+// at one place then, whichever joint it is read as the torque of.
+HeldOutFit OfColumns(const HeldOutFit& fit, const std::vector<int>& column);
+
 // Whether another reading fits clearly better, in both halves and all samples:
 // what is wrong with the columns of some joints (`of`), from what all have.
 bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
@@ -53,5 +57,9 @@ bool IsFirstToExplain(const HeldOutFit& as_is, const HeldOutFit& changed,
                       int j);
 // IsClearlyBetter of something that concerns all joints alike, such as a delay.
 bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed);
+// Whether the squares of all torques together, in which the joints that work
+// most count most, are lower by the factor that IsBetterForAll asks of the
+// joints' mean, in which each counts alike: in both halves and all samples.
+bool IsBetterInTotal(const HeldOutFit& as_is, const HeldOutFit& changed);
 
 }  // namespace armcal

@@ -163,7 +163,7 @@ class Reader {
       const Kind kind = all[k].change.kind;
       if (asked[kind]++ >= kMostAsked) continue;
       const HeldOutFit held_out = HeldOut(all[k].reading);
-      if (!Confirms(all[k].change, held_out)) continue;
+      if (!Confirms(all[k], held_out)) continue;
       // Gravity turned gives joints that carry nothing a load to be fitted to:
       // where what concerns one joint explains as much, it is that.
       if (kind == Kind::kGravity) {
@@ -192,9 +192,13 @@ class Reader {
     return hints_.asks_gravity && (num_moving_ > 1 || robot_.num_joints() == 1);
   }
 
-  bool Confirms(const ReadingChange& change, const HeldOutFit& held_out) const {
+  bool Confirms(const Candidate& candidate, const HeldOutFit& held_out) const {
+    const ReadingChange& change = candidate.change;
+    const bool all_fit_better = IsBetterForAll(
+        OfColumns(held_out_, best_.wiring.torque_column),
+        OfColumns(held_out, candidate.reading.wiring.torque_column));
     if (change.kind == Kind::kDelay) {
-      return IsBetterForAll(held_out_, held_out) ||
+      return all_fit_better ||
              (joints_agree_ &&
               held_out.residual_percent < held_out_.residual_percent);
     }
@@ -202,7 +206,13 @@ class Reader {
     // power and whose inertias are near the file's, tells which: of 98 logs of
     // ../shared/data with all torques negated it is likelier so in 97, by 107
     // to 5000 nats, and in the 98th, where it is not, this confirms neither.
-    if (IsAllSigns(change.kind) && IsBetterForAll(held_out_, held_out)) {
+    if (IsAllSigns(change.kind) && all_fit_better) return true;
+    // Columns of single joints stand in the motion of all: what is wrong with
+    // them shows in the torques of others, too. That of a joint which hardly
+    // works may fit better by chance, and a direction of gravity or a unit is
+    // so free that it fits what is not its own.
+    if (!JointsOf(change).empty() && all_fit_better &&
+        IsBetterInTotal(held_out_, held_out)) {
       return true;
     }
     return IsClearlyBetter(held_out_, held_out, JointsOf(change)) ||
@@ -223,7 +233,7 @@ class Reader {
       bool does_as_well = misfits[i] < misfits[k] + kLeastGain;
       if (!does_as_well && misfits[i] < least_ - kLeastGain) {
         const HeldOutFit fit = HeldOut(all[i].reading);
-        does_as_well = Confirms(other, fit) &&
+        does_as_well = Confirms(all[i], fit) &&
                        !IsClearlyBetter(fit, held_out, JointsOf(change));
       }
       if (does_as_well) alternatives.push_back(other);
@@ -277,7 +287,7 @@ class Reader {
         changes_.begin(), changes_.end(),
         [](const ReadingChange& c) { return c.kind == Kind::kGravity; });
     if (before == changes_.end()) {
-      if (!Confirms({Kind::kGravity}, held_out)) return;
+      if (!Confirms({at, {Kind::kGravity}}, held_out)) return;
       Accept({at, {Kind::kGravity}}, misfit, 1, held_out);
     } else if (held_out.residual_percent < held_out_.residual_percent) {
       before->held_out_after = held_out.residual_percent;

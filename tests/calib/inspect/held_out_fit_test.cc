@@ -58,6 +58,28 @@ TEST_F(HeldOutFitTest, ADelayConcernsAllJoints) {
   EXPECT_FALSE(IsBetterForAll(as_is, one_worse));
 }
 
+// What torques 2 and 4 leave is theirs, whichever joint they are read as.
+TEST_F(HeldOutFitTest, FiguresAreOfColumns) {
+  HeldOutFit exchanged = Fit(arm_.log);
+  exchanged.joints.row(0) << 1, 2, 3, 4, 5, 6;
+  exchanged.variation << 1, 2, 3, 4, 5, 6;
+  const HeldOutFit columns = OfColumns(exchanged, {0, 3, 2, 1, 4, 5});
+  Eigen::RowVectorXd expected(6);
+  expected << 1, 4, 3, 2, 5, 6;
+  EXPECT_EQ(columns.joints.row(0), expected);
+  EXPECT_EQ(columns.variation, expected.transpose());
+}
+
+// Two thirds of all torques' squares, in each half and in the whole.
+TEST_F(HeldOutFitTest, AllTorquesAreBetterByAThird) {
+  HeldOutFit as_is = Fit(arm_.log), changed = as_is;
+  as_is.all << .1, .1, .1;
+  changed.all << .05, .06, .065;
+  EXPECT_TRUE(IsBetterInTotal(as_is, changed));
+  changed.all[1] = .07;
+  EXPECT_FALSE(IsBetterInTotal(as_is, changed));
+}
+
 // A joint slows down and holds on, with all of its friction one way or the
 // other: nothing of that is asked.
 TEST_F(HeldOutFitTest, WhatFrictionHoldsAtRestIsNotAsked) {
