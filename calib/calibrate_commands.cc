@@ -49,7 +49,8 @@ OutputErrorOptions FitOptions(const CalibrateOptions& options) {
 
 void ExpectMasses(const Robot& robot, const CalibrateOptions& options) {
   for (const Link& link : robot.links) {
-    if (link.inertial.mass > 0) continue;
+    // A link between two joints of one body is held at no mass (ArmUnknowns).
+    if (link.inertial.mass > 0 || IsDeclaredMassless(link)) continue;
     throw InputError(
         options.source.name.empty() ? robot.name : options.source.name,
         "link " + link.name, "",

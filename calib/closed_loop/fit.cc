@@ -19,11 +19,31 @@ LoopFit::LoopFit(const LoopUnknowns& unknowns, const LoopTrust& trust,
       inertia_(trust.inertia),
       files_(unknowns.nominal()) {
   constexpr double kInside = .01;  // m, kg
-  for (int k = 0; k < unknowns.links_size() && unknowns.is_free(0); k += 10) {
+  for (int k = 0; k < unknowns.links_size(); k += 10) {
+    if (!unknowns.is_free(k)) continue;
     const Vector10d c =
         LogCholeskyFromInertial(files_.segment<10>(k), kInside, kInside);
     InertialFromLogCholesky(c.data(), files_.data() + k);
   }
+}
+
+// Links that are held may be such as no body has.
+std::vector<int> LoopFit::HeldLinks() const {
+  std::vector<int> indices;
+  for (int k = 0; k < unknowns_.links_size(); ++k) {
+    if (!unknowns_.is_free(k)) indices.push_back(k);
+  }
+  return indices;
+}
+
+std::vector<int> LoopFit::Asked() const {
+  std::vector<int> indices;
+  for (int k = 0; k < unknowns_.size(); ++k) {
+    if (k >= unknowns_.links_size() || unknowns_.is_free(k)) {
+      indices.push_back(k);
+    }
+  }
+  return indices;
 }
 
 MatrixXd LoopFit::TorqueRows() const {
@@ -48,22 +68,21 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   constexpr double kClear = 1e-6;  // of its prior, a start of what is positive
   const int links = unknowns_.links_size();
   const int others = unknowns_.size() - links;
-  // Links that are held may be such as no body has.
-  const int first = unknowns_.is_free(0) ? 0 : links;
-  const long size = unknowns_.size() - first;
+  const std::vector<int> held = HeldLinks(), asked = Asked();
+  const auto size = static_cast<Eigen::Index>(asked.size());
   const MatrixXd by_torque = TorqueRows();
   const long told = R.rows() + by_torque.rows();
   MatrixXd all(told, unknowns_.size());
   all << R, by_torque;
   MatrixXd A = MatrixXd::Zero(told + others, size);
   VectorXd b = VectorXd::Zero(A.rows());
-  A.topRows(told) = all.rightCols(size);
+  A.topRows(told) = all(Eigen::all, asked);
   b.head(R.rows()) = z;
   if (torques_ != nullptr) {
     b.segment(R.rows(), torques_->z.size()) = torques_->z;
   }
-  b.head(told) -= all.leftCols(first) * x->head(first);
-  VectorXd start = files_.tail(size);
+  b.head(told) -= all(Eigen::all, held) * (*x)(held);
+  VectorXd start = files_(asked);
   std::vector<TermRange> ranges;
   for (int k = 0; k < others; ++k) {
     const int unknown = links + k;
@@ -83,7 +102,7 @@ bool LoopFit::Solve(const MatrixXd& R, const VectorXd& z, VectorXd* x) const {
   const auto solved =
       StartLinks(A, b, inertia_ > 0 ? inertia_ : 1, ranges, start);
   if (!solved) return false;
-  x->tail(size) = *solved;
+  (*x)(asked) = *solved;
   for (int k = links; k < unknowns_.size(); ++k) {
     if (unknowns_.is_free(k) && unknowns_.is_positive(k)) {
       (*x)[k] = std::max((*x)[k], unknowns_.least(k));
@@ -100,7 +119,8 @@ double LoopFit::PriorCost(const VectorXd& x) const {
     cost +=
         (torques_->R * x.head(torques_->R.cols()) - torques_->z).squaredNorm();
   }
-  for (int k = 0; k < unknowns_.links_size() && unknowns_.is_free(0); k += 10) {
+  for (int k = 0; k < unknowns_.links_size(); k += 10) {
+    if (!unknowns_.is_free(k)) continue;
     const InertialPrior prior(files_.segment<10>(k), inertia_);
     const Vector10d c = LogCholeskyFromInertial(x.segment<10>(k), 0, 0);
     const double* const block = c.data();
@@ -118,7 +138,8 @@ double LoopFit::PriorCost(const VectorXd& x) const {
 
 MatrixXd LoopFit::PriorInformation(double inertia, double times) const {
   MatrixXd information = MatrixXd::Zero(unknowns_.size(), unknowns_.size());
-  for (int k = 0; k < unknowns_.links_size() && unknowns_.is_free(0); k += 10) {
+  for (int k = 0; k < unknowns_.links_size(); k += 10) {
+    if (!unknowns_.is_free(k)) continue;
     const auto W = InertialPrior(files_.segment<10>(k), inertia).W();
     information.block<10, 10>(k, k) = W.transpose() * W;
   }

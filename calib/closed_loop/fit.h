@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "calib/closed_loop/torque_information.h"
 #include "calib/closed_loop/unknowns.h"
@@ -34,6 +35,10 @@ class LoopFit {
   Eigen::MatrixXd PriorInformation(double inertia, double times) const;
 
  private:
+  // Indices of unknowns: of links that are held, and what Solve() asks for.
+  std::vector<int> HeldLinks() const;
+  std::vector<int> Asked() const;
+
   const LoopUnknowns& unknowns_;
   const TorqueInformation* torques_;
   double inertia_;

@@ -32,9 +32,10 @@ LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
     : n_(nominal.arm.robot.num_joints()), files_(nominal) {
   const Robot& robot = nominal.arm.robot;
   for (const Link& link : robot.links) {
+    // A link between two joints of one body has no mass that may vary.
+    const double inertia = IsDeclaredMassless(link) ? 0 : trust.inertia;
     for (int k = 0; k < 10; ++k) {
-      Add(link.name + "." + InertialName(k), InertialUnit(k), trust.inertia,
-          kAny);
+      Add(link.name + "." + InertialName(k), InertialUnit(k), inertia, kAny);
     }
   }
   for (int j = 0; j < n_; ++j) {

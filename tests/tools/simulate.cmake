@@ -37,6 +37,33 @@ foreach(other --seed=1 --run=1)
   endif()
 endforeach()
 
+# Two joints of one MJCF body: the link between them has no mass, and the file is
+# as whole as one without it.
+file(WRITE ${WORK_DIR}/two.xml
+     "<mujoco><worldbody><body name='a' pos='0 0 .2'><joint name='q1' axis='0 0 1'/>
+<inertial pos='0 0 .1' mass='3' diaginertia='.03 .03 .02'/><body name='b' pos='0 0 .3'>
+<joint name='q2' axis='0 1 0'/><joint name='q3' axis='1 0 0'/>
+<inertial pos='0 0 .2' mass='2' diaginertia='.02 .02 .01'/></body></body></worldbody></mujoco>")
+file(WRITE ${WORK_DIR}/loop.yaml "rate: 1000\nbandwidth: 8\nfeedforward: none\n")
+run("two joints of one body" simulate --robot=two.xml --duration=12 --robot_error=.2
+    --encoder_noise=5e-5 --controller=loop.yaml --effects= --out=two)
+expect_code(0)
+run("their commands" calibrate --robot=two.xml --controller=loop.yaml --log=two/log.csv --out=found)
+expect_code(0)
+if(out MATCHES "b_q2[.]")
+  fail("a link without mass has nothing to estimate")
+endif()
+# The first moment that carries the body, of all the most certain: what was hidden, to .003 kg m.
+file(READ ${WORK_DIR}/two/truth.json truth)
+string(JSON name GET "${truth}" parameters 23 name)
+string(JSON hidden GET "${truth}" parameters 23 value)
+string(REGEX MATCH "b[.]hz +0[.]4 -> +([0-9.]+)" found "${out}")
+execute_process(COMMAND awk "BEGIN {d = ${CMAKE_MATCH_1} - ${hidden}; exit d * d > 9e-6}"
+                RESULT_VARIABLE is_off)
+if(NOT name STREQUAL b.hz OR is_off)
+  fail("${name} is ${CMAKE_MATCH_1} kg m, not ${hidden} kg m")
+endif()
+
 # Another run is of the same robot.
 foreach(k 1 2)
   run("run ${k}" simulate --robot=arm.yaml --duration=2 --out=out --run=${k}

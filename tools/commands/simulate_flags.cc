@@ -128,7 +128,7 @@ SensorOptions SensorsFromFlags(const FlagValues& flags, const Robot& robot) {
 
 void RequireMasses(const CommandInput& input, const Robot& robot) {
   for (const Link& link : robot.links) {
-    if (link.has_inertial) continue;
+    if (link.has_inertial || IsDeclaredMassless(link)) continue;
     throw InputError(RobotFileFromFlags(input).name(), "link " + link.name, "",
                      "it has no mass; expected a robot file whose links have "
                      "inertias, to simulate");
