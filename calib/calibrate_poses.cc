@@ -56,8 +56,8 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
   summary.report = PoseReport(robot, *options.poses, result);
   if (result.solved) {
     summary.robot = result.robot;
-    summary.files.push_back(
-        {"robot.urdf", RobotUrdf(options.source, result.robot, true).text});
+    summary.report +=
+        AddRobotUrdf(options.source, result.robot, true, &summary.files);
     summary.report +=
         AddExports({result.robot, {}}, formats, &json, &summary.files);
     AddCameras(*options.poses, result, &summary.files);

@@ -37,9 +37,8 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
                         const CalibrateOptions& options, nlohmann::json* json,
                         CalibrateSummary* summary) {
   summary->robot = refined.robot;
-  const RobotUrdfFile urdf =
-      RobotUrdf(options.source, refined.robot, refined.refined_geometry);
-  summary->files.push_back({"robot.urdf", urdf.text});
+  const std::string losses = AddRobotUrdf(
+      options.source, refined.robot, refined.refined_geometry, &summary->files);
   if (options.source.urdf) {
     summary->files.push_back(
         {"robot_without_meshes.urdf", MakeUrdf(refined.robot)});
@@ -48,9 +47,7 @@ void AddCalibratedRobot(const NonlinearCalibration& refined,
       {"parameters_covariance.csv", ParametersCovarianceCsv(refined)});
   summary->files.push_back(
       {"parameters_posterior.csv", ParametersPosteriorCsv(refined)});
-  for (const std::string& loss : urdf.losses) {
-    summary->report += "robot.urdf  " + loss + "\n";
-  }
+  summary->report += losses;
   summary->report +=
       AddExports({refined.robot, {}, controller},
                  FormatsBesideUrdf(options.exports), json, &summary->files);

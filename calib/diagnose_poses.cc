@@ -67,9 +67,8 @@ void AddCorrection(const PoseMeasurements& measured,
     summary->files.push_back(
         {"correction.csv", CorrectionCsv(correction.arm, correction.table)});
   }
-  summary->files.push_back(
-      {"robot.urdf",
-       RobotUrdf(options.source, correction.arm.links(), true).text});
+  summary->report += AddRobotUrdf(options.source, correction.arm.links(), true,
+                                  &summary->files);
 }
 
 }  // namespace

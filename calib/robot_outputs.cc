@@ -101,4 +101,15 @@ RobotUrdfFile RobotUrdf(const RobotSource& source, const Robot& robot,
   return file;
 }
 
+std::string AddRobotUrdf(const RobotSource& source, const Robot& robot,
+                         bool geometry, std::vector<ResultFile>* results) {
+  const RobotUrdfFile urdf = RobotUrdf(source, robot, geometry);
+  results->push_back({"robot.urdf", urdf.text});
+  std::string lines;
+  for (const std::string& loss : urdf.losses) {
+    lines += "robot.urdf  " + loss + "\n";
+  }
+  return lines;
+}
+
 }  // namespace armcal

@@ -45,5 +45,8 @@ struct RobotUrdfFile {
 };
 RobotUrdfFile RobotUrdf(const RobotSource& source, const Robot& robot,
                         bool geometry);
+// Adds it to a result's files. Returns what is lost, a line each.
+std::string AddRobotUrdf(const RobotSource& source, const Robot& robot,
+                         bool geometry, std::vector<ResultFile>* results);
 
 }  // namespace armcal
