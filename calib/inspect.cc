@@ -6,6 +6,7 @@
 #include "calib/robot_outputs.h"
 #include "model/log_files/log_writer.h"
 #include "model/robot_files/controller_reader.h"
+#include "model/robot_files/urdf_tree.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
@@ -63,7 +64,9 @@ InspectSummary Inspect(const Robot& robot, const std::vector<LogSource>& logs,
   };
   begin("inspecting");
   InspectSummary summary;
-  summary.of_robot = AuditRobot(robot);
+  summary.of_robot =
+      AuditRobot(robot, options.urdf ? WideAngles(*options.urdf)
+                                     : std::vector<std::string>());
   summary.positive = summary.of_robot.empty();
   LogReaderOptions reading = options.reading;
   reading.joint_names = robot.JointNames();

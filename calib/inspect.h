@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_source.h"
 #include "model/robot/robot.h"
+#include "model/text/document.h"
 #include "model/text/progress.h"
 
 namespace armcal {
@@ -24,6 +26,9 @@ struct InspectOptions {
   // Path of the drives' law that goes into the exports (docs/simulate.md); the
   // gains that it leaves open are those of the posture of zeros. Empty: none.
   std::string controller;
+  // The URDF that the robot was read from, of which it is asked whether angles
+  // are in rad; none: nothing is asked of that.
+  std::optional<Document> urdf;
   bool draw = false;  // keeps what a page draws of the first 30 logs
   Progress progress;
 };

@@ -28,6 +28,16 @@ double RadiusOfGyration(const InertialParameters& body) {
   return std::sqrt(std::abs(CentralInertia(body).trace()) / 2 / body.mass);
 }
 
+// Of all bodies of one mass that are nowhere denser than rho the ball has the
+// least moment about its centre, m k^2 = 3/5 m r^2 with m = 4/3 pi r^3 rho:
+// m / k^3 is 9.01 rho of it and less of all others. Nothing solid is denser
+// than osmium, 22590 kg/m^3 (Arblaster, Platinum Metals Rev. 33 (1989) 14).
+bool IsTooDense(const InertialParameters& body) {
+  constexpr double kDensest = 9.01 * 22590;  // kg/m^3
+  const double radius = RadiusOfGyration(body);
+  return radius > 0 && body.mass > kDensest * radius * radius * radius;
+}
+
 // The longest distance between neighbouring joints and the tool, m.
 double LongestLink(const Robot& robot) {
   double longest = 0;
@@ -58,13 +68,18 @@ bool HasMass(const Link& link) {
 
 class RobotAudit {
  public:
-  explicit RobotAudit(const Robot& robot) : robot_(robot) {}
+  RobotAudit(const Robot& robot, const std::vector<std::string>& wide_angles)
+      : robot_(robot), wide_angles_(wide_angles) {}
 
   std::vector<InspectionFinding> Run() {
     AddMissing();
     for (const Link& link : robot_.links) AddUnphysical(link);
     AddDefaults();
-    for (const Link& link : robot_.links) AddSize(link);
+    AddAngles();
+    AddMassUnit();
+    if (!AddLengthUnit()) {
+      for (const Link& link : robot_.links) AddSize(link);
+    }
     AddLimits();
     return findings_;
   }
@@ -118,6 +133,59 @@ class RobotAudit {
     }
   }
 
+  void AddAngles() {
+    constexpr size_t kMost = 3;  // that are named
+    const std::vector<std::string>& wide = wide_angles_;
+    if (wide.empty()) return;
+    std::string evidence;
+    for (size_t k = 0; k < std::min(kMost, wide.size()); ++k) {
+      evidence += (k > 0 ? ", " : "") + wide[k];
+    }
+    if (wide.size() > kMost) {
+      evidence += Format(" and %zu more", wide.size() - kMost);
+    }
+    Add("angle_unit", "the file turns by more than a whole turn: in degrees?",
+        evidence, "a URDF's rpy are in rad");
+  }
+
+  double TotalMass() const {
+    double mass = 0;
+    for (const Link& link : robot_.links) mass += link.inertial.mass;
+    return mass;
+  }
+
+  // Of one link a fit, or a drawing's placeholder, may be so dense; a unit is
+  // that of all.
+  void AddMassUnit() {
+    int bodies = 0, too_dense = 0;
+    for (const Link& link : robot_.links) {
+      if (!HasMass(link) || !WhyUnphysical(link.inertial).empty()) continue;
+      ++bodies;
+      too_dense += IsTooDense(link.inertial);
+    }
+    if (2 * too_dense <= bodies) return;
+    Add("mass_unit", "most links are denser than any solid: masses in g?",
+        ThreeDigits(TotalMass()) + " kg in all, longest link " +
+            ThreeDigits(LongestLink(robot_)) + " m",
+        "a robot file's masses are in kg and its inertias in kg m^2");
+  }
+
+  // An arm that weighs less than a thousandth of the air in a cube on its
+  // longest link. Files of ../shared/data and data/ have 2.4 to 830 kg/m^3 by
+  // that cube, and so 2.4e-9 to 8.3e-7 with lengths in mm.
+  bool AddLengthUnit() {
+    constexpr double kLightest = 1e-3;  // kg/m^3
+    const double length = LongestLink(robot_), mass = TotalMass();
+    if (!(mass > 0) || !(mass < kLightest * length * length * length)) {
+      return false;
+    }
+    Add("length_unit", "so light an arm is not that long: lengths in mm?",
+        "longest link " + ThreeDigits(length) + " m, " + ThreeDigits(mass) +
+            " kg in all",
+        "a robot file's lengths are in m");
+    return true;
+  }
+
   // Meshes in mm make inertias a million times too large.
   void AddSize(const Link& link) {
     constexpr double kLarge = 3, kSmall = 1e-3;  // of the longest link
@@ -153,13 +221,15 @@ class RobotAudit {
   }
 
   const Robot& robot_;
+  const std::vector<std::string>& wide_angles_;
   std::vector<InspectionFinding> findings_;
 };
 
 }  // namespace
 
-std::vector<InspectionFinding> AuditRobot(const Robot& robot) {
-  return RobotAudit(robot).Run();
+std::vector<InspectionFinding> AuditRobot(
+    const Robot& robot, const std::vector<std::string>& wide_angles) {
+  return RobotAudit(robot, wide_angles).Run();
 }
 
 std::vector<std::string> RobotNotes(const Robot& robot) {

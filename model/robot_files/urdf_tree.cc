@@ -1,5 +1,6 @@
 #include "model/robot_files/urdf_tree.h"
 
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -106,6 +107,36 @@ RobotTree ReadUrdfTree(const Document& document) {
   RefuseLoops(document.name(), tree);
   ReadUrdfCouplings(root, index, &tree);
   return tree;
+}
+
+// Of what cannot be read the reader tells, if the robot has it.
+std::vector<std::string> WideAngles(const Document& document) {
+  constexpr double kWholeTurn = 6.295;  // rad, rounded to 6.28 or 6.29
+  const XmlFile file(document);
+  const XmlElement root = file.root();
+  std::vector<std::string> wide;
+  const auto look = [&](const std::string& what, const XmlElement& owner) {
+    const std::optional<XmlElement> origin = owner.Child("origin");
+    if (!origin || !origin->Has("rpy")) return;
+    const Eigen::Vector3d rpy = origin->Vector("rpy", "rad");
+    Eigen::Index axis = 0;
+    if (!(rpy.cwiseAbs().maxCoeff(&axis) > kWholeTurn)) return;
+    wide.push_back(what + " by " + NumberText(rpy[axis]) + " rad");
+  };
+  for (const char* tag : {"joint", "link"}) {
+    for (const XmlElement& element : root.Children(tag)) {
+      try {
+        const std::string what = tag + (" " + element.Name("name"));
+        look(what, element);
+        if (const auto inertial = element.Child("inertial")) {
+          look("the inertia of " + what, *inertial);
+        }
+      } catch (const InputError&) {
+        continue;
+      }
+    }
+  }
+  return wide;
 }
 
 }  // namespace armcal

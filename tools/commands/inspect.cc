@@ -81,6 +81,7 @@ CommandOutcome RunInspect(const CommandInput& input) {
     logs = LogInputFromFlags(input).logs;
   }
   options.draw = input.WantsReport();
+  options.urdf = RobotSourceFromFlags(input).urdf;
   const InspectSummary summary = Inspect(robot, logs, options);
   CommandOutcome outcome =
       OutcomeOf(input, robot, summary,

@@ -9,6 +9,7 @@ namespace armcal::robot_audit_test {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::Not;
 
 std::vector<std::string> Names(const Robot& robot) {
   std::vector<std::string> names;
@@ -53,6 +54,40 @@ TEST_F(RobotAuditTest, MeshesInMillimetres) {
   robot_.links[3].inertial = InertialParameters::FromCenterOfMass(
       2, {50, 20, 10}, 1e6 * Eigen::Matrix3d::Identity());
   EXPECT_THAT(Names(robot_), Contains("suspicious_inertia"));
+}
+
+// Bodies of 2 kg with k = 0.096 m, 2300 kg/m^3 by m / k^3. In g they are denser
+// than osmium with the moments that they have, and with a thousand times these.
+TEST_F(RobotAuditTest, MassesInGrams) {
+  Robot moments_too = robot_;
+  for (int j = 0; j < robot_.num_joints(); ++j) {
+    InertialParameters* body = &robot_.links[j].inertial;
+    const Eigen::Vector3d com = body->first_moment / body->mass;
+    const Eigen::Matrix3d moments =
+        Eigen::Vector3d(.01, .012, .015).asDiagonal();
+    moments_too.links[j].inertial = InertialParameters::FromCenterOfMass(
+        1e3 * body->mass, com, 1e3 * moments);
+    *body =
+        InertialParameters::FromCenterOfMass(1e3 * body->mass, com, moments);
+  }
+  EXPECT_THAT(Names(robot_), Contains("mass_unit"));
+  EXPECT_THAT(Names(moments_too), Contains("mass_unit"));
+  EXPECT_THAT(Names(moments_too), Not(Contains("suspicious_inertia")));
+}
+
+// One finding, of the file, and none of each link's inertia.
+TEST_F(RobotAuditTest, LengthsInMillimetres) {
+  for (Link& link : robot_.links) link.X_PF.translation() *= 1e3;
+  EXPECT_THAT(Names(robot_), ElementsAre("length_unit"));
+}
+
+TEST_F(RobotAuditTest, AnglesInDegrees) {
+  const auto findings = AuditRobot(
+      robot_, {"a by 90 rad", "b by 9 rad", "c by 9 rad", "d by 9 rad"});
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].finding, "angle_unit");
+  EXPECT_EQ(findings[0].evidence,
+            "a by 90 rad, b by 9 rad, c by 9 rad and 1 more");
 }
 
 TEST_F(RobotAuditTest, Placeholders) {

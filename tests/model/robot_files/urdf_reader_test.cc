@@ -9,6 +9,7 @@
 #include <string>
 
 #include "model/robot_files/robot_reader.h"
+#include "model/robot_files/urdf_tree.h"
 #include "tests/fixtures/urdf_text.h"
 
 namespace armcal::urdf_reader_test {
@@ -186,6 +187,20 @@ std::string Shared(const std::string& name) {
 }
 
 // The folder's dh.txt is the source its URDF was made from: modified DH.
+// A whole turn, rounded, is what exporters write; what cannot be read is the
+// reader's to tell.
+TEST(UrdfReader, AnglesOfMoreThanAWholeTurn) {
+  const Document file(
+      "arm.urdf",
+      "<robot><link name='a'><inertial><origin rpy='0 90 0'/></inertial></link>"
+      "<link name='b'><inertial><origin rpy='x'/></inertial></link>"
+      "<joint name='j'><origin rpy='1 -180 45'/></joint>"
+      "<joint name='turn'><origin rpy='6.2832 -6.29 0'/></joint></robot>");
+  EXPECT_THAT(WideAngles(file),
+              testing::ElementsAre("joint j by -180 rad",
+                                   "the inertia of link a by 90 rad"));
+}
+
 TEST(UrdfReader, PandaAgreesWithItsDhTable) {
   if (!std::filesystem::exists(Shared("panda/robot.urdf"))) {
     GTEST_SKIP() << "no " << Shared("panda/robot.urdf");
