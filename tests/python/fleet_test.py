@@ -3,6 +3,7 @@
 import hashlib
 import os
 import pathlib
+import pickle
 import subprocess
 import sys
 import tempfile
@@ -68,6 +69,23 @@ class Fleet(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         cls.scratch.cleanup()
+
+    def test_workers_read_the_same_chain(self):
+        """They had the file's gravity, and fingers at 0 whatever the posture."""
+        from armcal import fleet
+        arms = pathlib.Path(os.environ["DATA_DIR"]) / "two_arms/robot.urdf"
+        chain = {"tip": "left_hand,right_finger", "gravity": (0, 0, -3.7),
+                 "posture": {"left_finger_joint": .04}}
+        texts = {"text": arms.read_text(), "name": "arms"}
+        for robot in (armcal.read_robot(arms, **chain),
+                      armcal.Robot.from_text(**texts, **chain)):
+            again = fleet._robot_of(pickle.loads(pickle.dumps(
+                fleet._place_of(robot))))
+            self.assertEqual(list(again.gravity), [0, 0, -3.7])
+            self.assertEqual(again.posture, {"left_finger_joint": .04})
+            self.assertEqual(again.source, robot.source)
+            self.assertTrue((again.inertial_parameters ==
+                             robot.inertial_parameters).all())
 
     def test_outliers_and_drift(self):
         fleet = self.merged.fleet

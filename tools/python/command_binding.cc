@@ -103,7 +103,7 @@ Outcome Run(const std::string& name, const FlagTexts& flags,
     for (const auto& file : folder.files()) outcome.files.push_back(file);
   }
   if (found.robot) {
-    outcome.robot = robot.value_or(LoadedRobot{{}, "", "", ""});
+    outcome.robot = robot.value_or(LoadedRobot{{}, "", "", "", {}, ""});
     outcome.robot->robot = *found.robot;
   }
   return outcome;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "model/robot/robot.h"
@@ -13,6 +14,8 @@ struct LoadedRobot {
   Robot robot;
   Document file;
   std::string base, tip;
+  std::map<std::string, double> posture;  // where joints beside these are held
+  std::string folder;  // of files that an MJCF file names; empty: its own
 };
 
 }  // namespace armcal

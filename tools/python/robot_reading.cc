@@ -29,7 +29,7 @@ LoadedRobot ReadLoadedRobot(const Document& file, const std::string& base,
   if (!gravity.is_none()) {
     options.gravity = ReadVector("gravity", gravity, 3);
   }
-  return {ReadRobot(file, options), file, base, tip};
+  return {ReadRobot(file, options), file, base, tip, posture, folder};
 }
 
 LoadedRobot ReadRobotFile(const std::filesystem::path& path,
@@ -80,6 +80,12 @@ void AddOrigin(py::class_<LoadedRobot>* robot) {
       "As it was asked for.");
   add(
       "tip", [](const LoadedRobot& f) { return f.tip; },
+      "As it was asked for.");
+  add(
+      "posture", [](const LoadedRobot& f) { return f.posture; },
+      "{joint: position} of joints beside these, as it was asked for.");
+  add(
+      "robot_folder", [](const LoadedRobot& f) { return f.folder; },
       "As it was asked for.");
 }
 

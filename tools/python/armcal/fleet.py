@@ -43,8 +43,11 @@ def read_table(path: str) -> List[Recording]:
                 for row in rows]
 
 
-#: path, source, text (of a robot in no file), base and tip.
-Place = Tuple[str, str, str, str, str]
+#: How a worker reads a robot again: base, tip, gravity, posture and, of a file,
+#: robot_folder.
+Chain = Dict[str, Any]
+#: path, source, text (of a robot in no file), and its chain.
+Place = Tuple[str, str, str, Chain]
 #: Name and bytes of a factor file; why there is none.
 Reduced = Tuple[str, bytes, str]
 #: Options of reduce that say how a log is read, which another factor does not.
@@ -53,21 +56,26 @@ READING = ("torque_kind", "torque_constants", "torque_constants_stddev",
 
 
 def _place_of(robot: _armcal.Robot) -> Place:
-    if robot.path:
-        return (os.path.abspath(robot.path), "", "", robot.base, robot.tip)
-    return ("", robot.source, robot.text, robot.base, robot.tip)
+    chain: Chain = {"base": robot.base, "tip": robot.tip,
+                    "gravity": [float(g) for g in robot.gravity],
+                    "posture": dict(robot.posture)}
+    if not robot.path:
+        return ("", robot.source, robot.text, chain)
+    if robot.robot_folder:
+        chain["robot_folder"] = os.path.abspath(robot.robot_folder)
+    return (os.path.abspath(robot.path), "", "", chain)
 
 
 def _robot_of(place: Place) -> _armcal.Robot:
-    path, source, text, base, tip = place
+    path, source, text, chain = place
     if path:
-        return _armcal.read_robot(path, base, tip)
+        return _armcal.read_robot(path, **chain)
     name, format = source.rsplit(".", 1)
-    return _armcal.Robot.from_text(text, format, name=name, base=base, tip=tip)
+    return _armcal.Robot.from_text(text, format, name=name, **chain)
 
 
 def _text_of(place: Place) -> bytes:
-    path, _, text, _, _ = place
+    path, _, text, _ = place
     if not path:
         return text.encode()
     with open(path, "rb") as file:
