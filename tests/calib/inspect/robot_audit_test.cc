@@ -77,7 +77,10 @@ TEST_F(RobotAuditTest, MassesInGrams) {
 
 // One finding, of the file, and none of each link's inertia.
 TEST_F(RobotAuditTest, LengthsInMillimetres) {
-  for (Link& link : robot_.links) link.X_PF.translation() *= 1e3;
+  for (Link& link : robot_.links) {
+    link.X_PF.translation() *= 1e3;
+    link.X_ML.translation() *= 1e3;
+  }
   EXPECT_THAT(Names(robot_), ElementsAre("length_unit"));
 }
 
