@@ -155,14 +155,14 @@ void Diagnoser::FreeWhatIsContradicted(const Robot& file, MissingTerms* missing,
   }
 }
 
-// A reference whose friction or armature is not that of the logs, on many
-// joints at once, is of other drives or other torque sensors. It tells of the
-// links then, and nothing else: its robot without these terms is what a file
-// is. A calibration has its friction as well as a reference.
+// A reference whose friction or armature is nothing like that of the logs, on
+// many joints at once, is of other drives or other torque sensors. It tells of
+// the links then, and nothing else: its robot without these terms is what a
+// file is. A calibration has its friction as well as a reference.
 void Diagnoser::ForgetOtherFriction(MissingTerms* missing,
                                     std::vector<GapSegment>* segments) {
   if (result_.has_calibration) return;
-  result_.not_of_reference = ContradictedTerms(*fit_);
+  result_.not_of_reference = TermsOfOtherDrives(*fit_);
   if (result_.not_of_reference.empty()) return;
   result_.has_reference = false;
   const Robot links = baseline_->robot();
@@ -187,8 +187,10 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   Tell("fitting the baseline");
   result_.trust = options_.baseline.trust;
   MissingTerms missing =
-      FitMissingTerms(robot_, options_.baseline, bandwidth_hz_,
-                      before.empty() ? segments : before);
+      before.empty()
+          ? FitMissingTerms(robot_, options_.baseline, bandwidth_hz_, segments)
+          : FitTermsOfReference(robot_, options_.baseline, bandwidth_hz_,
+                                before);
   FitBaseline(missing, &segments, &before);
   result_.has_reference = reference != nullptr;
   result_.has_calibration = options_.baseline.posterior != nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "calib/diagnose/select/chosen.h"
@@ -94,25 +95,73 @@ std::optional<size_t> LeastNeeded(const GapFit& fit,
   return least;
 }
 
-}  // namespace
+// Three joints, or all of two.
+double SeveralJoints(const GapFit& fit) {
+  return std::min<double>(Limits().several_joints, fit.rows().num_joints());
+}
 
-std::vector<const Effect*> ContradictedTerms(const GapFit& fit) {
+// Those of all joints that the logs contradict (freedom.h).
+std::vector<TermChange> ContradictedChanges(const GapFit& fit) {
   // One joint's friction is one number among others that may have changed.
   if (!fit.rows().has_evidence() || fit.rows().num_joints() < 2) return {};
   std::vector<TermChange> changes = TermChanges(fit);
   while (const auto least = LeastNeeded(fit, changes)) {
     changes.erase(changes.begin() + static_cast<long>(*least));
   }
-  const int joints = fit.rows().num_joints();
   if (changes.empty() ||
       JointsExplained(fit.screen(), SolveWith(fit, {}),
-                      SolveWith(fit, changes)) <
-          std::min<double>(Limits().several_joints, joints)) {
+                      SolveWith(fit, changes)) < SeveralJoints(fit)) {
     return {};
   }
+  return changes;
+}
+
+std::vector<const Effect*> EffectsOf(const std::vector<TermChange>& changes) {
   std::vector<const Effect*> terms;
   for (const TermChange& change : changes) terms.push_back(change.effect);
   return terms;
+}
+
+// Joints of which a term with its change has less than half in common with
+// what it was, and the change is told to three standard deviations.
+std::set<int> JointsOfOtherDrives(const GapFit& fit,
+                                  const std::vector<TermChange>& changes) {
+  constexpr double kTold = 3;
+  const GapScreen::Fit with = SolveWith(fit, changes);
+  Eigen::Index at = static_cast<Eigen::Index>(
+      ColumnsOf(fit.candidates(), fit.selection().chosen).size());
+  std::set<int> joints;
+  for (const TermChange& change : changes) {
+    for (const int c : change.candidates) {
+      const GapCandidate& candidate = fit.candidates()[c];
+      const Joint& joint = fit.baseline().robot().links[candidate.joint].joint;
+      const double before = TermOf(*change.effect->joint_term, joint);
+      const double changed = with.coefficients[at] * candidate.size[0];
+      const double deviation =
+          std::sqrt(with.covariance(at, at)) * candidate.size[0];
+      ++at;
+      const auto [less, more] = std::minmax(before, before + changed);
+      if (less < (1 - Limits().explains) * more &&
+          std::abs(changed) > kTold * deviation) {
+        joints.insert(candidate.joint);
+      }
+    }
+  }
+  return joints;
+}
+
+}  // namespace
+
+std::vector<const Effect*> ContradictedTerms(const GapFit& fit) {
+  return EffectsOf(ContradictedChanges(fit));
+}
+
+std::vector<const Effect*> TermsOfOtherDrives(const GapFit& fit) {
+  const std::vector<TermChange> changes = ContradictedChanges(fit);
+  if (changes.empty()) return {};
+  const std::set<int> joints = JointsOfOtherDrives(fit, changes);
+  if (static_cast<double>(joints.size()) < SeveralJoints(fit)) return {};
+  return EffectsOf(changes);
 }
 
 MissingTerms FitWithout(const std::vector<JointTerm>& not_believed,
@@ -124,6 +173,21 @@ MissingTerms FitWithout(const std::vector<JointTerm>& not_believed,
     for (const JointTerm term : not_believed) *TermOf(term, &link.joint) = 0;
   }
   return FitMissingTerms(without, options, bandwidth_hz, segments);
+}
+
+MissingTerms FitTermsOfReference(const Robot& file,
+                                 const BaselineOptions& options,
+                                 double bandwidth_hz,
+                                 const std::vector<GapSegment>& reference) {
+  MissingTerms missing =
+      FitMissingTerms(file, options, bandwidth_hz, reference);
+  std::vector<JointTerm> not_believed =
+      FindPlaceholders(missing.robot, options, bandwidth_hz, reference);
+  if (not_believed.empty()) return missing;
+  for (const MissingTerm& term : missing.terms) {
+    not_believed.push_back(term.joint_term);
+  }
+  return FitWithout(not_believed, file, options, bandwidth_hz, reference);
 }
 
 bool GiveUpContradicted(const GapFit& fit, const Robot& file,

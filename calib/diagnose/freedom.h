@@ -18,12 +18,25 @@ namespace armcal {
 // before.
 std::vector<const Effect*> ContradictedTerms(const GapFit& fit);
 
+// The same of a reference that is of other drives or other torque sensors: on
+// as many joints the terms are less than half, or more than twice, of what it
+// has. Friction that changed by less is the reference's of another day (oil
+// that is cold, a gear that is run in, a load that presses on it).
+std::vector<const Effect*> TermsOfOtherDrives(const GapFit& fit);
+
 // The terms that logs ask for where `file` gives none of them, of those it has
 // none of and of `not_believed` (FitMissingTerms).
 MissingTerms FitWithout(const std::vector<JointTerm>& not_believed,
                         const Robot& file, const BaselineOptions& options,
                         double bandwidth_hz,
                         const std::vector<GapSegment>& segments);
+
+// FitMissingTerms to a reference: terms that the file gives and the reference
+// contradicts (FindPlaceholders) are fitted to it as missing ones, too.
+MissingTerms FitTermsOfReference(const Robot& file,
+                                 const BaselineOptions& options,
+                                 double bandwidth_hz,
+                                 const std::vector<GapSegment>& reference);
 
 // Without a reference, terms that are contradicted are taken as ones that
 // `file` does not give, and *missing is fitted anew. Whether there were any.

@@ -101,6 +101,21 @@ VectorXd Discrepancy::Spreads(int j, const Joint& joint) const {
   return spreads;
 }
 
+// sqrt(sum_k spread_k^2 <phi_k^2>), with the mean squares of the shapes: a half
+// of cosines, about one of load's at the usual load, 1 / kStateShapes of the
+// random features, which add up to one, and less than a half of a friction
+// curve's. No joints: 0.
+double Discrepancy::Deviation(int j, const Joint& joint) const {
+  if (frequency_.empty()) return 0;
+  const VectorXd squares = Spreads(j, joint).cwiseAbs2();
+  constexpr int kCosines = 2 * kHarmonics + 2 * kSignHarmonics +
+                           static_cast<int>(kSpeedShares.size());
+  const double cosines =
+      squares.head(kCosines).sum() + squares.tail(kTimeShapes).sum();
+  return std::sqrt(cosines / 2 + squares.segment(kCosines, kLoadShapes).sum() +
+                   squares[kCosines + kLoadShapes]);
+}
+
 bool Discrepancy::IsOfTime(int k) const { return k >= kOfState; }
 
 // Positions as turns and speeds in units of the usual: samples x 2n.

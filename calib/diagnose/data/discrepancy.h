@@ -38,6 +38,9 @@ class Discrepancy {
   // Shapes of joint j in a segment: samples x as many, of the order of 1.
   Eigen::MatrixXd Torque(int j, const GapSegment& segment,
                          const RecordedTorque& torque) const;
+  // How large it is at any one time, a standard deviation (N m or N), but for
+  // the torque constant, which a reference of the same joint shares.
+  double Deviation(int j, const Joint& joint) const;
   // Whether shape k is of one log's time: other logs do not share it.
   bool IsOfTime(int k) const;
 

@@ -13,17 +13,40 @@
 namespace armcal {
 namespace {
 
+// How probable it is that what the model lacks as a rule is as large on some
+// joint in some stretch of the log, as long as this one, as what was felt, each
+// joint's torque known to its noise. A chi squared of many samples does not ask
+// this: what lasts through a stretch is not averaged there.
+double ChanceByDiscrepancy(const GapFit& fit, const Contact& contact) {
+  Eigen::VectorXd stddev = contact.stddev;
+  for (int j = 0; j < stddev.size(); ++j) {
+    stddev[j] = std::hypot(stddev[j], fit.regression().DiscrepancyOn(j));
+  }
+  double duration = 0;
+  for (const GapSegment& segment : fit.rows().segments()) {
+    duration += segment.motion.dt * static_cast<double>(segment.motion.size());
+  }
+  const double length = contact.window.end - contact.window.begin;
+  const double stretches = std::max(1., duration / std::max(1e-9, length));
+  return ChanceOfLargest(contact.torque, stddev, stretches);
+}
+
 // That an event is a contact, `evidence` being that of all events: of what is
 // beyond friction by the chance that a log without a contact gets as far
-// (ProbabilityBeyondChance), which several logs tell, else by regressions, or,
-// if that is larger, by the chance of a peak so far above the log's others.
-double ProbabilityOfEvent(const GapEvent& event, const EffectEvidence& evidence,
+// (ProbabilityBeyondChance), which several logs tell. A single one does not
+// tell how logs differ: it is by regressions, or, if that is larger, by the
+// chance of a peak so far above the log's others, and no more than what the
+// model lacks as a rule leaves to it.
+double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
+                          const EffectEvidence& evidence,
                           double chance_among_peaks) {
   if (!event.beyond_friction) return ProbabilityOf(evidence);
   const double odds = Limits().odds_of_no_contact;
   if (event.chance_of_logs) return ProbabilityBeyondChance(event.chance, odds);
-  return std::max(ProbabilityBeyondOneReference(evidence),
-                  ProbabilityBeyondChance(chance_among_peaks, odds));
+  return std::min(
+      std::max(ProbabilityBeyondOneReference(evidence),
+               ProbabilityBeyondChance(chance_among_peaks, odds)),
+      ProbabilityBeyondChance(ChanceByDiscrepancy(fit, event.contact), odds));
 }
 
 // Of what is left of moving joints' torques where there is no event, over the
@@ -77,7 +100,7 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
   std::vector<double> probabilities;
   for (size_t k = 0; k < fit.events().size(); ++k) {
     probabilities.push_back(
-        ProbabilityOfEvent(fit.events()[k], found.evidence, chances[k]));
+        ProbabilityOfEvent(fit, fit.events()[k], found.evidence, chances[k]));
     found.probability = std::max(found.probability, probabilities[k]);
   }
   const double least = std::min(found.probability, Limits().likely);

@@ -46,4 +46,15 @@ std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
   return chances;
 }
 
+double ChanceOfLargest(const Eigen::VectorXd& values,
+                       const Eigen::VectorXd& stddev, double draws) {
+  double largest = 0;
+  for (Eigen::Index j = 0; j < values.size(); ++j) {
+    if (!(stddev[j] > 0)) continue;
+    largest = std::max(largest, std::abs(values[j]) / stddev[j]);
+  }
+  const double count = draws * static_cast<double>(values.size());
+  return std::min(1., count * std::erfc(largest / std::sqrt(2.)));
+}
+
 }  // namespace armcal

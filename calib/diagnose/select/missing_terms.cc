@@ -12,6 +12,7 @@
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/selection.h"
 #include "model/dynamics/joint_term.h"
@@ -36,11 +37,12 @@ bool IsCalibrated(JointTerm term, const BaselineOptions& options) {
 }
 
 // The effects of the catalogue that are a joint term (viscous friction, Coulomb
-// friction, armature, ..) which the robot file gives no joint at all. A file
-// that gives it to one joint is taken at its word for the others. Terms of a
-// recording are left to their prior: a torque's zero is in no robot file.
-std::vector<const Effect*> TermsNotIn(const Robot& robot,
-                                      const BaselineOptions& options) {
+// friction, armature, ..) which the robot file gives no joint at all, or
+// (`given`) those that it gives one. A file that gives it to one joint is taken
+// at its word for the others. Terms of a recording are left to their prior: a
+// torque's zero is in no robot file.
+std::vector<const Effect*> TermsOf(const Robot& robot,
+                                   const BaselineOptions& options, bool given) {
   std::vector<const Effect*> terms;
   for (const Effect& effect : Effects()) {
     if (!effect.joint_term || effect.nature == Effect::Nature::kRecording) {
@@ -51,7 +53,7 @@ std::vector<const Effect*> TermsNotIn(const Robot& robot,
         robot.links.begin(), robot.links.end(), [&](const Link& link) {
           return TermOf(*effect.joint_term, link.joint) == 0;
         });
-    if (is_missing) terms.push_back(&effect);
+    if (is_missing != given) terms.push_back(&effect);
   }
   return terms;
 }
@@ -79,6 +81,10 @@ std::vector<GapCandidate> Candidates(const Robot& robot,
 
 class MissingTermFit {
  public:
+  // Whether a joint's value may be negative: a change of the file's may be, and
+  // what the file gives none of not.
+  enum class Sign { kPositive, kFree };
+
   // All missing terms are fitted at once as columns of a screen, a column per
   // joint and term. Their noise is what they leave themselves: weights 1 /
   // sigma_j^2 with sigma_j the rms of joint j's residual, found by iterating
@@ -86,7 +92,8 @@ class MissingTermFit {
   // 1988), since the first residual holds all of the friction that is missing.
   MissingTermFit(const Robot& robot, const BaselineOptions& options,
                  double bandwidth_hz, const std::vector<GapSegment>& segments,
-                 const std::vector<const Effect*>& terms)
+                 const std::vector<const Effect*>& terms,
+                 Sign sign = Sign::kPositive)
       : robot_(robot),
         terms_(terms),
         baseline_(robot, options, UsualTorque(segments)),
@@ -105,7 +112,7 @@ class MissingTermFit {
       }
     }
     Weigh();
-    RemoveNegative();
+    if (sign == Sign::kPositive) RemoveNegative();
   }
 
   // Terms that the logs ask for, and the file's robot with them. A joint whose
@@ -127,6 +134,26 @@ class MissingTermFit {
       if (is_missing) result.terms.push_back(term);
     }
     return result;
+  }
+
+  // Terms that the logs ask for where the file gives others: those of which
+  // several joints leave less than half with all of them.
+  std::vector<JointTerm> Contradicted() const {
+    const int all = static_cast<int>(terms_.size());
+    const Eigen::ArrayXd with = Left(all).array().square();
+    const Eigen::ArrayXd without = Left(0).array().square();
+    const auto joints = (with < (1 - Limits().explains) * without).count();
+    const double several =
+        std::min<double>(Limits().several_joints, robot_.num_joints());
+    if (static_cast<double>(joints) < several) return {};
+    std::vector<JointTerm> contradicted;
+    for (int f = 0; f < all; ++f) {
+      const MissingTerm term = Term(f);
+      if (term.delta_chi2 > LeastDeltaChi2(term)) {
+        contradicted.push_back(term.joint_term);
+      }
+    }
+    return contradicted;
   }
 
  private:
@@ -245,12 +272,23 @@ class MissingTermFit {
 MissingTerms FitMissingTerms(const Robot& robot, const BaselineOptions& options,
                              double bandwidth_hz,
                              const std::vector<GapSegment>& segments) {
-  const std::vector<const Effect*> missing = TermsNotIn(robot, options);
+  const std::vector<const Effect*> missing = TermsOf(robot, options, false);
   MissingTerms none;
   none.robot = robot;
   if (missing.empty()) return none;
   return MissingTermFit(robot, options, bandwidth_hz, segments, missing)
       .Result();
+}
+
+std::vector<JointTerm> FindPlaceholders(
+    const Robot& robot, const BaselineOptions& options, double bandwidth_hz,
+    const std::vector<GapSegment>& segments) {
+  if (options.posterior != nullptr || robot.num_joints() < 2) return {};
+  const std::vector<const Effect*> given = TermsOf(robot, options, true);
+  if (given.empty()) return {};
+  return MissingTermFit(robot, options, bandwidth_hz, segments, given,
+                        MissingTermFit::Sign::kFree)
+      .Contradicted();
 }
 
 }  // namespace armcal

@@ -39,4 +39,13 @@ MissingTerms FitMissingTerms(const Robot& robot, const BaselineOptions& options,
                              double bandwidth_hz,
                              const std::vector<GapSegment>& segments);
 
+// Terms that the file gives, of friction and armature, and that these segments
+// contradict: placeholders. With values of their own on all joints they leave
+// less than half of the mean square that the file's leave within their trust,
+// on three joints or on all of fewer, and each of them is asked for as a
+// missing one is. None of a calibrated robot.
+std::vector<JointTerm> FindPlaceholders(
+    const Robot& robot, const BaselineOptions& options, double bandwidth_hz,
+    const std::vector<GapSegment>& segments);
+
 }  // namespace armcal

@@ -239,6 +239,11 @@ bool GapRegression::ChooseDiscrepancy(const std::vector<int>& columns) {
   return true;
 }
 
+double GapRegression::DiscrepancyOn(int j) const {
+  return discrepancy_ *
+         baseline_.discrepancy().Deviation(j, baseline_.robot().links[j].joint);
+}
+
 void GapRegression::SettleEvidence(const std::vector<int>& columns) {
   if (noise_.source == NoiseFloor::kPositions) return;
   evidence_ = SettleNoise(screen_->Only(columns), data_->rows().evidence());

@@ -57,6 +57,9 @@ class GapRegression {
   // ones, that is the most likely given these columns; once, before the next
   // Refit, and where no reference has told it. Whether that changed it.
   bool ChooseDiscrepancy(const std::vector<int>& columns);
+  // How large what models lack as a rule is on joint j at any one time, a
+  // standard deviation, N m or N (Discrepancy::Deviation at the chosen size).
+  double DiscrepancyOn(int j) const;
   const EvidenceNoise& evidence() const { return evidence_; }
   const GapBaseline& baseline() const { return baseline_; }
   const GapNoise& noise() const { return noise_; }

@@ -17,6 +17,50 @@ using Eigen::VectorXd;
 
 constexpr double kOut = -std::numeric_limits<double>::infinity();
 
+// Adds a torque, which may be empty on joints that have none.
+void Add(const JointRows& torque, double factor, JointRows* sum) {
+  for (size_t j = 0; j < torque.size(); ++j) {
+    if (torque[j].size() == 0) continue;
+    if ((*sum)[j].size() == 0) {
+      (*sum)[j] = factor * torque[j];
+    } else {
+      (*sum)[j] += factor * torque[j];
+    }
+  }
+}
+
+// The torque that a fitted effect's columns say it has.
+JointRows TorqueOfColumns(const GapCandidate& fitted) {
+  JointRows sum(fitted.torque[0].size());
+  for (size_t i = 0; i < fitted.linear.size(); ++i) {
+    Add(fitted.torque[i], fitted.p[fitted.linear[i]] / fitted.size[i], &sum);
+  }
+  return sum;
+}
+
+// By how much less the laws of all effects but the k-th explain than their
+// columns, all at these fitted sizes and beside the k-th one's columns: a law
+// that bends is not in proportion to a column that was taken at another size.
+double LostByLaws(const GapRegression& regression,
+                  const std::vector<GapCandidate>& fitted, int k) {
+  const std::vector<GapCandidate> others =
+      AllBut(fitted, static_cast<size_t>(k));
+  if (std::all_of(others.begin(), others.end(), [](const GapCandidate& other) {
+        return other.effect->proportional;
+      })) {
+    return 0;
+  }
+  JointRows by_laws = TorqueOfColumns(fitted[k]), by_columns = by_laws;
+  Add(regression.TorqueOf(others), 1, &by_laws);
+  for (const GapCandidate& other : others) {
+    Add(TorqueOfColumns(other), 1, &by_columns);
+  }
+  const VectorXd chi2 = regression.screen().Chi2Given(
+      {WhitenEach(regression.rows(), by_laws),
+       WhitenEach(regression.rows(), by_columns)});
+  return chi2[0] - chi2[1];
+}
+
 }  // namespace
 
 // The law of an effect is never quite the robot's, and what a richer one of the
@@ -42,9 +86,11 @@ void LeaveOutErrorsOfForm(double share, std::vector<FittedRival>* rivals) {
 // most, therefore have their shapes fitted as the chosen one has, while all
 // other effects stay as they are. The score is then
 //   delta_chi2 of all - delta_chi2 of the others - RefinedPenalty,
-// where a fitted shape counts as parameters. A rival whose estimates no real
-// arm can have (Effect::plausible) stands behind every one that is possible,
-// whatever its score.
+// where a fitted shape counts as parameters. The others are laws beside a
+// rival and columns by themselves; what they lose by that is no rival's
+// (LostByLaws), whose scores stand beside those of candidates that were not
+// fitted. A rival whose estimates no real arm can have (Effect::plausible)
+// stands behind every one that is possible, whatever its score.
 Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
                      const SelectionOptions& options,
                      const Selection& selection, int k) {
@@ -74,17 +120,20 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
   const GapBaseline& baseline = regression.baseline();
   const MotionScale& scale = regression.scale();
   std::vector<RefinedEffects> refined(near.size());
+  VectorXd lost(near.size());
   tbb::parallel_for(size_t{0}, near.size(), [&](size_t r) {
     std::vector<int> chosen = selection.chosen;
     chosen[k] = near[r];
-    refined[r] = RefineEffects(screen, baseline, scale, pool.Fitted(chosen), k,
-                               regression.data());
+    const std::vector<GapCandidate> fitted = pool.Fitted(chosen);
+    refined[r] =
+        RefineEffects(screen, baseline, scale, fitted, k, regression.data());
+    lost[static_cast<Eigen::Index>(r)] = LostByLaws(regression, fitted, k);
   });
   std::vector<FittedRival> fitted;
   for (size_t r = 0; r < near.size(); ++r) {
     const GapCandidate& rival = candidates[near[r]];
     const size_t varied = ListCoordinates(baseline, scale, {rival}, 0).size();
-    fitted.push_back({rival.joint, refined[r].delta_chi2 - by_others,
+    fitted.push_back({rival.joint, refined[r].delta_chi2 + lost[r] - by_others,
                       RefinedPenalty(screen, rival, static_cast<int>(varied))});
   }
   LeaveOutErrorsOfForm(options.same_joint_share, &fitted);

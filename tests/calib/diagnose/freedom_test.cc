@@ -160,6 +160,17 @@ TEST_F(OtherFriction, OfAReferenceTellsOfTheLinksAlone) {
   EXPECT_TRUE(diagnosis.data[0].leads);
 }
 
+// Cold gears have half as much friction again on all joints, which a load does
+// not make another robot's.
+TEST_F(OtherFriction, OfAColdDayIsTheReferences) {
+  const LogSet reference = Record(kViscous, kCoulomb, kArmature, "warm.csv");
+  const LogSet log =
+      Record(1.6 * kViscous, 1.5 * kCoulomb, kArmature, "cold.csv");
+  const GapDiagnosis diagnosis = Diagnose(log, &reference);
+  EXPECT_TRUE(diagnosis.has_reference);
+  EXPECT_TRUE(diagnosis.not_of_reference.empty());
+}
+
 // One joint's friction is an effect, and the reference one still.
 TEST_F(OtherFriction, OfOneJointIsAnEffect) {
   const LogSet reference = Record(kViscous, kCoulomb, kArmature, "before.csv");

@@ -50,6 +50,25 @@ TEST_F(DiscrepancyTest, IsOfARoutineSize) {
   }
 }
 
+// At any one time it is as large as its shapes are on average, but for torque
+// constants, which are no part of that.
+TEST_F(DiscrepancyTest, DeviatesByWhatItsShapesAddUpTo) {
+  const Discrepancy discrepancy(File(), scale_, 1, 0);
+  const Discrepancy of_currents(File(), scale_, 1, .05);
+  for (int j = 0; j < File().num_joints(); ++j) {
+    const Joint& joint = File().links[j].joint;
+    const MatrixXd shapes = discrepancy.Torque(j, segments_[0], torques_[0]);
+    const double rms =
+        (shapes * discrepancy.Spreads(j, joint).asDiagonal()).norm() /
+        std::sqrt(static_cast<double>(shapes.rows()));
+    const double deviation = discrepancy.Deviation(j, joint);
+    EXPECT_GT(deviation, rms / 1.5) << j;
+    EXPECT_LT(deviation, rms * 1.5) << j;
+    EXPECT_EQ(of_currents.Deviation(j, joint), deviation) << j;
+  }
+  EXPECT_EQ(Discrepancy().Deviation(0, Joint()), 0);
+}
+
 // What one log's time says, says nothing of another.
 TEST_F(DiscrepancyTest, EachLogDriftsForItself) {
   const Discrepancy discrepancy(File(), scale_, 2, .03);

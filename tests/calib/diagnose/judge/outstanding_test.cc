@@ -50,4 +50,20 @@ TEST(ChancesAmongPeaks, AreNoLargerThanTrue) {
   }
 }
 
+// Two-sided tails of the normal distribution, three and four standard
+// deviations: .0027 and 6.334e-5.
+TEST(ChanceOfLargest, IsOfTheLargestInItsDeviations) {
+  const Eigen::Vector2d stddev(.1, 10);
+  EXPECT_NEAR(ChanceOfLargest(Eigen::Vector2d(.3, -5), stddev, 5),
+              10 * 2.6998e-3, 1e-5);
+  EXPECT_NEAR(ChanceOfLargest(Eigen::Vector2d(.3, -40), stddev, 5),
+              10 * 6.3342e-5, 1e-7);
+}
+
+TEST(ChanceOfLargest, IsAtMostOne) {
+  const Eigen::Vector2d stddev(.1, 0);
+  EXPECT_EQ(ChanceOfLargest(Eigen::Vector2d(.1, 5), stddev, 100), 1);
+  EXPECT_EQ(ChanceOfLargest(Eigen::Vector2d(0, 5), stddev, 1), 1);
+}
+
 }  // namespace armcal::outstanding_test
