@@ -9,6 +9,7 @@
 #include "calib/diagnose/changes/report.h"
 #include "calib/diagnose/diagnosis.h"
 #include "calib/diagnose/modules/modules.h"
+#include "calib/diagnose/names.h"
 #include "calib/diagnose/report.h"
 #include "calib/diagnose/sentence.h"
 #include "calib/diagnose/since_calibration.h"
@@ -254,6 +255,33 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   return summary;
 }
 
+// The logs of a diagnosis; null: there are none of these.
+struct DiagnosedLogs {
+  const LogSet& training;
+  const LogSet* held_out;
+  const LogSet* reference;
+  const LogSet* calibrations_own;
+};
+
+// A calibration's own logs are asked what is new, `trust_beside_own` being that
+// in the file's numbers then; else a reference is, if there is one.
+std::shared_ptr<GapDiagnosis> DiagnosedGap(const Robot& robot,
+                                           const DiagnosisOptions& options,
+                                           double trust_beside_own,
+                                           const DiagnosedLogs& logs) {
+  const LogSet* own = logs.calibrations_own;
+  auto diagnosis = std::make_shared<GapDiagnosis>(
+      own != nullptr
+          ? DiagnoseSinceCalibration(robot, options, trust_beside_own,
+                                     logs.training, logs.held_out, *own)
+          : DiagnoseGap(robot, options, logs.training, logs.held_out,
+                        logs.reference));
+  if (diagnosis->has_reference) {
+    diagnosis->reference_logs = (own != nullptr ? own : logs.reference)->size();
+  }
+  return diagnosis;
+}
+
 }  // namespace
 
 DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
@@ -298,10 +326,9 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   const LogSet* before = reference ? &*reference : nullptr;
   const Robot& known = calibrated ? calibrated->robot : robot;
   const std::optional<LogSet> beside = Open(own.input, reading);
-  auto details = std::make_shared<GapDiagnosis>(
-      beside ? DiagnoseSinceCalibration(known, fit, TrustInFile(options, true),
-                                        training, held_out, *beside)
-             : DiagnoseGap(known, fit, training, held_out, before));
+  const std::shared_ptr<GapDiagnosis> details =
+      DiagnosedGap(known, fit, TrustInFile(options, true),
+                   {training, held_out, before, beside ? &*beside : nullptr});
   if (fit.may_trust_less) NoteTrust(fit.baseline.trust, details.get());
   AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {

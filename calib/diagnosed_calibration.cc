@@ -16,7 +16,9 @@ DataFinding StandFor(Stand stand, const CalibrationLogs& own) {
   const std::string names = " (" + JoinNames(NamesOf(own.input.logs)) + ")";
   if (stand == Stand::kHaveItToo) {
     return {"the calibration's own logs have what is named as well" + names,
-            "it is what the calibrated robot lacks, and no change since", ""};
+            "that is not new, the calibrated robot lacks it; whether anything "
+            "else has changed since, this does not say",
+            ""};
   }
   return {"the calibration's own logs are the reference" + names,
           "what they have as well is no change since", ""};

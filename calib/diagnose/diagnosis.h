@@ -67,6 +67,9 @@ struct GapDiagnosis {
   std::vector<RunDrift> drifts;    // from log to log
   NoiseFloor floor = NoiseFloor::kAssumed;
   bool has_reference = false;
+  // How many logs the reference is: told by who opened them; 0: not told. A
+  // single one does not show how logs of one robot differ by themselves.
+  int reference_logs = 0;
   bool has_calibration = false;  // whether the robot is a calibrated one
   // What the logs that it was calibrated on stand for
   // (DiagnoseSinceCalibration).

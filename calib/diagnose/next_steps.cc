@@ -1,18 +1,82 @@
 #include "calib/diagnose/next_steps.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "calib/diagnose/sentence.h"
+#include "calib/diagnose/names.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
 
-constexpr double kWorthIt = .1;     // of what has no name
-constexpr size_t kExperiments = 3;  // more would not be done
+// An experiment is proposed for what is named or nearly so, and would matter: a
+// weak guess is one of many, and what removes a hundredth of the gap is not
+// what the gap is.
+constexpr double kNearlyNamed = .2;   // probability
+constexpr double kWorthRemoving = 5;  // %, of what refitting leaves, or of
+                                      // the noise where that is more
+constexpr size_t kExperiments = 3;    // more would not be done
 
-// Experiments for what may be there: the claims first, then what one name of
-// several is claimed of, then what is not claimed.
+bool IsFriction(JointTerm term) {
+  return term == JointTerm::kViscous || term == JointTerm::kCoulomb;
+}
+
+// Whether an effect is friction of a joint: such a number, or a law for which
+// such numbers stand in robot files.
+bool IsFriction(const Effect& effect) {
+  return (effect.joint_term && IsFriction(*effect.joint_term)) ||
+         std::any_of(effect.stand_ins.begin(), effect.stand_ins.end(),
+                     [](JointTerm term) { return IsFriction(term); });
+}
+
+// Whether joints' friction is said to differ from that of a single reference,
+// by a name or by more than is usual from day to day (two standard deviations).
+// A joint's friction differs from log to log by itself, and one log of the
+// robot as it was does not tell by how much.
+bool IsFrictionSinceOneLog(const GapDiagnosis& diagnosis) {
+  constexpr double kUnusual = 2;
+  const auto& effects = diagnosis.effects;
+  const auto& moved = diagnosis.moved;
+  if (diagnosis.reference_logs != 1) return false;
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const FoundEffect& found) {
+                       return IsFriction(*found.effect);
+                     }) ||
+         std::any_of(moved.begin(), moved.end(), [](const MovedParameter& one) {
+           return one.term && IsFriction(*one.term) &&
+                  std::abs(one.deviations) > kUnusual;
+         });
+}
+
+// Whether what an effect removes of held-out torque is too little to ask for.
+// What refitting leaves is next to nothing where it is a tenth of the noise.
+bool IsTrifle(const FoundEffect& found, const GapFigures& torque) {
+  const double left = torque.refit - 1;
+  return found.removed_percent * left < kWorthRemoving * std::max(1., left);
+}
+
+// What has no name of its own but is worth an experiment: one name of several
+// that is claimed of them first, then what is nearly named, what removes the
+// most first. What that is may not be known: last.
+std::vector<const FoundEffect*> NearlyNamed(const GapDiagnosis& diagnosis) {
+  std::vector<const FoundEffect*> found;
+  for (const FoundEffect& one : diagnosis.unnamed) {
+    const bool is_near =
+        one.probability >= kNearlyNamed && !IsTrifle(one, diagnosis.torque);
+    if (one.one_of_few || is_near) found.push_back(&one);
+  }
+  const auto removes = [](const FoundEffect& one) {
+    return std::isnan(one.removed_percent) ? -1 : one.removed_percent;
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const FoundEffect* a, const FoundEffect* b) {
+                     if (a->one_of_few != b->one_of_few) return a->one_of_few;
+                     return removes(*a) > removes(*b);
+                   });
+  return found;
+}
+
+// Experiments for what may be there: the claims first, then what is nearly one.
 std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
   std::vector<std::string> steps;
   const auto add = [&](const std::string& why, const FoundEffect& found) {
@@ -26,16 +90,17 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
                                 : why + name) +
                     ": " + experiment);
   };
+  if (IsFrictionSinceOneLog(diagnosis)) {
+    steps.push_back("a second log of the robot as it was, of another day, as " +
+                    OptionName("reference") +
+                    ": two tell how much friction differs from log to log by "
+                    "itself");
+  }
   for (const FoundEffect& found : diagnosis.effects) {
     if (!IsConfident(found.probability)) add("to be sure of ", found);
   }
-  for (const FoundEffect& found : diagnosis.unnamed) {
-    if (found.one_of_few) add("to be sure of ", found);
-  }
-  for (const FoundEffect& found : diagnosis.unnamed) {
-    if (found.probability >= kWorthIt && !found.one_of_few) {
-      add("to see whether it is ", found);
-    }
+  for (const FoundEffect* found : NearlyNamed(diagnosis)) {
+    add(found->one_of_few ? "to be sure of " : "to see whether it is ", *found);
   }
   return steps;
 }

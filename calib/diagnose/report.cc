@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/names.h"
 #include "calib/diagnose/next_steps.h"
 #include "calib/diagnose/sentence.h"
 #include "model/log_files/torque_columns.h"

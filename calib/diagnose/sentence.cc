@@ -4,117 +4,15 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/diagnose/data/thresholds.h"
-#include "model/text/enumeration.h"
+#include "calib/diagnose/named_effects.h"
+#include "calib/diagnose/names.h"
 #include "model/text/format.h"
 
 namespace armcal {
 namespace {
 
-// What probabilities of effects are worth in words.
-const char* Lacks(double least_probability) {
-  if (IsConfident(least_probability)) return "lacks";
-  return least_probability > Limits().likely ? "probably lacks" : "may lack";
-}
-
-// Effects in a sentence, and how certain the least certain is.
-struct Named {
-  std::vector<std::string> names;
-  double least = 1;
-  bool would_show = false;  // one of them, on held-out data
-
-  void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-    would_show |= found.gain.IsNone();
-    names.push_back(NameOf(*found.effect, found.joint, diagnosis));
-    least = std::min(least, found.probability);
-  }
-  // " lacks payload, delay and backlash on elbow"
-  std::string Lacked(const char* also) const {
-    return std::string(" ") + also + Lacks(least) + " " + Enumeration(names);
-  }
-};
-
-// " lacks viscous friction; refitted with it, 80 % of the file's gap is gone"
-std::string TermsLacked(const Named& terms, double less) {
-  const std::string text = terms.Lacked("");
-  if (!(less >= .5)) return text;
-  return text + Format(
-                    "; refitted with %s, %.0f %% of the file's gap is gone "
-                    "on held-out data",
-                    terms.names.size() > 1 ? "them" : "it", less);
-}
-
-// An effect that is a small part of the gap shrinks it by less than the rest
-// swings: that is no sign against it, where one that would shrink it is.
-std::string EffectsLacked(const Named& effects, bool besides, double removed) {
-  const std::string text = effects.Lacked(besides ? "also " : "");
-  if (!std::isfinite(removed)) return text;
-  if (removed < .5) {
-    return text + (effects.would_show
-                       ? ", which does not shrink the gap on held-out data"
-                       : ", too small a part of the gap for held-out data to "
-                         "show");
-  }
-  return text + Format(
-                    ", which removes %.0f %% of the gap that refitting "
-                    "leaves on held-out data",
-                    removed);
-}
-
-// What happened, and what the model lacks: joints' terms that the file has for
-// none, which the refit has as well, and then what a refit cannot have.
-std::string Findings(const GapDiagnosis& diagnosis) {
-  std::string touched;
-  Named terms, effects;
-  for (const FoundEffect& found : diagnosis.effects) {
-    // ChangedTogether() and the data's findings say so.
-    if (found.of_another_day || found.of_the_stamps) continue;
-    const size_t times = found.contacts.size();
-    if (times > 0) {
-      touched = "Something touched the arm " +
-                (times == 1 ? "once" : std::to_string(times) + " times");
-    } else {
-      (found.fitted.empty() ? terms : effects).Add(found, diagnosis);
-    }
-  }
-  const std::string model = touched.empty() ? "The model" : "; the model";
-  const GapFigures& gap = diagnosis.torque;
-  if (terms.names.empty() && effects.names.empty()) return touched;
-  if (terms.names.empty()) {
-    return touched + model + EffectsLacked(effects, false, gap.removed_percent);
-  }
-  if (effects.names.empty()) {
-    return touched + model +
-           TermsLacked(terms, gap.removed_from_nominal_percent);
-  }
-  return touched + model + TermsLacked(terms, gap.refit_removes_percent) +
-         "; it" + EffectsLacked(effects, true, gap.removed_percent);
-}
-
-// "one of payload, base tilt and encoder offset on elbow"
-std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  std::vector<std::string> names = {
-      NameOf(*found.effect, found.joint, diagnosis)};
-  for (const PlacedEffect& other : found.equivalent) {
-    names.push_back(NameOf(*other.effect, other.joint, diagnosis));
-  }
-  return "one of " + Enumeration(names);
-}
-
-// What has several names, none of which is probable enough; empty where nothing
-// has.
-std::string NamesAlike(const GapDiagnosis& diagnosis) {
-  std::string names;
-  double least = 1;
-  for (const FoundEffect& found : diagnosis.unnamed) {
-    if (!found.one_of_few) continue;
-    names += (names.empty() ? "" : ", and ") + OneOf(found, diagnosis);
-    least = std::min(least, found.any_probability);
-  }
-  if (names.empty()) return "";
-  return std::string("The model ") + Lacks(least) + " " + names +
-         ": these data cannot tell which.";
-}
+// Held-out mean square over the noise's from which on more than noise is left.
+constexpr double kNoisy = 2;
 
 bool IsMovedZero(const MovedParameter& moved) {
   return moved.term == JointTerm::kOffset;
@@ -192,31 +90,74 @@ std::string Agreement(const GapDiagnosis& diagnosis) {
          ": that tells nothing of it.";
 }
 
-// What is there without a name: one of a few known effects, or none of them.
-std::string WithoutName(const GapDiagnosis& diagnosis) {
-  const std::string alike = NamesAlike(diagnosis);
-  if (!alike.empty()) return alike;
-  std::string text = "Something real is missing that no known effect explains";
-  const auto& unexplained = diagnosis.unexplained;
-  if (!unexplained.joint.empty()) {
-    text += ": most of it on " + unexplained.joint;
-    if (!unexplained.organised_by.empty()) {
-      text += ", ordered by its " + unexplained.organised_by;
-    }
-  }
-  return text + ".";
-}
-
 // A mean square in units of the noise's: it is the noise where two digits say
 // so.
+constexpr double kAboveNoise = 1.05;
 std::string OfNoise(double mean_square) {
-  if (!(mean_square >= 1.05)) return "the noise";
+  if (!(mean_square >= kAboveNoise)) return "the noise";
   return Format("%.2g times the noise's mean square", mean_square);
+}
+
+// ": most of it on elbow, ordered by its speed"; empty where it is on no joint.
+std::string Where(const Unexplained& unexplained) {
+  if (unexplained.joint.empty()) return "";
+  const std::string& by = unexplained.organised_by;
+  return ": most of it on " + unexplained.joint +
+         (by.empty() ? "" : ", ordered by its " + by);
+}
+
+// With a reference the question was what has changed. What is left is more than
+// what the model leaves of the reference as it was fitted; whether that is a
+// change is seen on held-out data. Even there it need not be one: another
+// motion shows what the reference's did not.
+std::string ChangedWithoutName(const GapDiagnosis& diagnosis) {
+  const bool besides = !ChangedTogether(diagnosis).empty();
+  const std::string since = " since " + SinceWhat(diagnosis);
+  const std::string where = Where(diagnosis.unexplained);
+  if (diagnosis.torque.after < kNoisy) {
+    return (besides ? "No other change" : "No change") + since +
+           " can be named; what is left of held-out torque is " +
+           OfNoise(diagnosis.torque.after) + where + ".";
+  }
+  return std::string("Something ") + (besides ? "else " : "") + "has changed" +
+         since +
+         " that no known effect explains, or shows in this motion alone" +
+         where + ".";
+}
+
+// What is there without a name: one of a few known effects, or none of them.
+std::string WithoutName(const GapDiagnosis& diagnosis) {
+  const std::string alike = AlikeEffects(diagnosis);
+  if (!alike.empty()) return alike;
+  if (diagnosis.has_reference) return ChangedWithoutName(diagnosis);
+  return "Something real is missing that no known effect explains" +
+         Where(diagnosis.unexplained) + ".";
+}
+
+// Refitting explains what differs from a reference. It has friction of the day,
+// links and timing to do so, any of which may stand for a change of another
+// kind: a joint whose encoder is off by a degree was seen to be refitted as one
+// with other friction. So that nothing else has changed is never said.
+std::string AbsorbedSince(const GapDiagnosis& diagnosis) {
+  const std::string since = " since " + SinceWhat(diagnosis);
+  const bool besides = !ChangedTogether(diagnosis).empty();
+  const GapFigures& gap = diagnosis.torque;
+  // "from 26 to 1.4 times the noise's mean square"
+  const std::string refit =
+      "refitting the model's numbers (friction, links, timing) brings "
+      "what is left of held-out torque from " +
+      Format("%.3g ", gap.nominal) +
+      (gap.refit >= kAboveNoise ? "" : "times the noise's mean square ") +
+      "to " + OfNoise(gap.refit);
+  return besides ? "Nothing else is named: " + refit +
+                       "; a change that is like these may hide in that."
+                 : "No change" + since + " is named, yet " + refit +
+                       ": something has changed, or shows in this motion "
+                       "alone.";
 }
 
 // What is left given what has changed together.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
-  constexpr double kNoisy = 2;  // times the noise's mean square
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
                              diagnosis.verdict == GapVerdict::kAbsorbed;
   if (nothing_named && diagnosis.torque.refit > kNoisy) {
@@ -235,18 +176,16 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
     case GapVerdict::kNoiseFloor:
       return Agreement(diagnosis);
     case GapVerdict::kAbsorbed:
-      return AnyZeroMoved(diagnosis)
-                 ? "Nothing but these, friction and timing has changed."
-             : diagnosis.has_reference
-                 ? "Nothing but friction and timing has changed since " +
-                       SinceWhat(diagnosis) + "."
-                 : "Nothing is missing in the model but better values: "
-                   "refitting its parameters brings it down to " +
-                       OfNoise(diagnosis.torque.refit) + ".";
+      if (diagnosis.has_reference || AnyZeroMoved(diagnosis)) {
+        return AbsorbedSince(diagnosis);
+      }
+      return "Nothing is missing in the model but better values: refitting its "
+             "parameters brings it down to " +
+             OfNoise(diagnosis.torque.refit) + ".";
     case GapVerdict::kExplained:
-      return Findings(diagnosis) + ".";
+      return NamedEffects(diagnosis) + ".";
     case GapVerdict::kPartlyExplained:
-      return Findings(diagnosis) + "; something else is left.";
+      return NamedEffects(diagnosis) + "; something else is left.";
     case GapVerdict::kUnknown:
       return WithoutName(diagnosis);
     case GapVerdict::kNotTestable:
@@ -256,25 +195,6 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
 }
 
 }  // namespace
-
-std::string NameOf(const Effect& effect, int joint,
-                   const GapDiagnosis& diagnosis) {
-  std::string text = effect.name;
-  for (char& c : text) {
-    if (c == '_') c = ' ';
-  }
-  if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
-  return text;
-}
-
-bool IsConfident(double probability) { return probability >= .8; }
-
-std::string SinceWhat(const GapDiagnosis& diagnosis) {
-  const bool is_calibrations = diagnosis.calibrations_logs ==
-                               GapDiagnosis::CalibrationsLogs::kAreTheReference;
-  if (diagnosis.has_reference && !is_calibrations) return "the reference";
-  return diagnosis.has_calibration ? "the calibration" : "";
-}
 
 std::string BriefReport(const GapDiagnosis& diagnosis) {
   std::string text;

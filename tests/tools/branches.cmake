@@ -51,7 +51,7 @@ expect_text(out "two_arms: verified")
 run("diagnose" diagnose ${urdf} ${tips} --calibration=calibration
     --reference=run2/log.csv,run3/log.csv --log=run4/log.csv --out=diagnosis)
 expect_code(0)
-expect_text(out "The model lacks stribeck on right_forearm_joint")
+expect_text(out "Changed since the reference: stribeck on right_forearm_joint")
 
 # Held out, every joint is left at its noise. The hands turn round so often that
 # friction judged by the velocity in the motion's band left 2.3 and 1.6 times it.

@@ -36,7 +36,7 @@ run("what changed since a reference" diagnose ${robot} --log=after/log.csv
     --reference=before/log.csv --out=out)
 expect_code(0)
 expect_empty(err)
-expect_text(out "The model lacks payload" "which effect" "payload: mass"
+expect_text(out "Changed since the reference: payload" "which effect" "payload: mass"
             "held-out torque, rms" "joint1" "joint2" "held-out gap"
             "noise told from: reference")
 expect_json(explained verdict)
@@ -47,6 +47,20 @@ expect_json(mass effects 0 estimates 0 name)
 expect_json(kg effects 0 estimates 0 unit)
 expect_between(.47 .53 effects 0 estimates 0 value)
 expect_between(90 101 gap torque removed_percent)
+
+# One log of the robot as it was does not tell how logs of it differ.
+simulate(dragged 2 --effects=viscous_friction@2:drag=1)
+run("friction since a reference" diagnose ${robot} --log=dragged/log.csv
+    --reference=before/log.csv --noforward --out=out)
+expect_text(out "Changed since the reference: more viscous friction on joint2"
+            "a second log of the robot as it was")
+simulate(earlier 6)
+run("friction since two logs" diagnose ${robot} --log=dragged/log.csv
+    --reference=before/log.csv,earlier/log.csv --noforward --out=out)
+expect_text(out "more viscous friction on joint2")
+if(out MATCHES "a second log of the robot")
+  fail("a second reference is asked for where there are two")
+endif()
 
 run("the log it is compared with" diagnose ${robot} --log=before/log.csv
     --reference=before/log.csv --out=out)

@@ -35,6 +35,66 @@ TEST(NextSteps, ExperimentsForWhatIsNotCertain) {
           kExport));
 }
 
+// A weak guess is one of many, and what removes little is not what the gap is.
+TEST(NextSteps, NoneForGuessesAndTrifles) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  FoundEffect guess = MakeFound("cable", 0), trifle = MakeFound("cable", 1);
+  guess.probability = .19;
+  trifle.probability = .7;
+  trifle.removed_percent = 1;
+  diagnosis.unnamed = {guess, trifle};
+  diagnosis.verdict = GapVerdict::kExplained;
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
+  diagnosis.unnamed[0].probability = .2;
+  diagnosis.unnamed[1].removed_percent = 30;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(HasSubstr("cable on shoulder"),
+                                                HasSubstr("cable on elbow")))
+      << "40 % are more than 30 %";
+  diagnosis.unnamed[1].removed_percent = 50;
+  EXPECT_THAT(
+      NextSteps(diagnosis),
+      ElementsAre(HasSubstr("cable on elbow"), HasSubstr("cable on shoulder")));
+  diagnosis.unnamed[1].removed_percent = NAN;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(HasSubstr("cable on shoulder"),
+                                                HasSubstr("cable on elbow")))
+      << "what was not held out may be anything";
+  diagnosis.unnamed[1].removed_percent = 22;
+  diagnosis.torque.refit = 1.1;
+  EXPECT_THAT(NextSteps(diagnosis), IsEmpty())
+      << "40 % of a tenth of the noise";
+}
+
+// Friction differs from log to log by itself, and one log does not tell by how
+// much.
+TEST(NextSteps, ASecondReferenceWhereFrictionIsNamed) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.has_reference = true;
+  diagnosis.moved.clear();
+  diagnosis.effects = {MakeFound("coulomb_friction", 1)};
+  const auto second = HasSubstr("a second log of the robot as it was");
+  diagnosis.reference_logs = 1;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(second, kExport));
+  diagnosis.reference_logs = 2;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(kExport));
+  diagnosis.reference_logs = 1;
+  diagnosis.effects = {MakeFound("stribeck", 1)};
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(second, kExport));
+  diagnosis.effects = {MakeFound("payload", -1)};
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(kExport));
+  diagnosis.effects[0].probability = .6;
+  diagnosis.unnamed.assign(9, MakeFound("spring", 0));
+  diagnosis.moved = {
+      {"elbow.offset", "N m", 0, 1, .1, 4, JointTerm::kOffset},
+      {"elbow.viscous", "N m s/rad", 10, 8, .1, -1.9, JointTerm::kViscous}};
+  EXPECT_THAT(NextSteps(diagnosis)[0], HasSubstr("to be sure of payload"));
+  diagnosis.moved[1].deviations = -2.1;
+  EXPECT_THAT(NextSteps(diagnosis),
+              ElementsAre(second, HasSubstr("payload"),
+                          HasSubstr("spring on shoulder"), kExport))
+      << "three experiments at most";
+}
+
 // One of a few is claimed, another that is likelier by itself is not.
 TEST(NextSteps, WhatTellsAFewApartIsBeforeWhatIsNotClaimed) {
   GapDiagnosis diagnosis = SampleDiagnosis();

@@ -138,6 +138,70 @@ TEST(BriefReport, SaysWithinWhatItAgrees) {
             "large as the torque of elbow: that tells nothing of it.");
 }
 
+// That friction and timing changed and nothing else is more than a refit says:
+// it may have taken up an encoder's offset.
+TEST(BriefReport, TellsWhatARefitSinceAReferenceDoes) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  diagnosis.torque.nominal = 25.9;
+  diagnosis.torque.refit = 1.44;
+  diagnosis.moved.clear();
+  const std::string refit =
+      "refitting the model's numbers (friction, links, timing) brings "
+      "what is left of held-out torque from 25.9 to 1.4 times the noise's mean "
+      "square";
+  EXPECT_EQ(BriefReport(diagnosis),
+            "No change since the reference is named, yet " + refit +
+                ": something has changed, or shows in this motion alone.");
+  diagnosis.moved = {
+      {"elbow.viscous", "N m s/rad", 10, 8, .1, -2, JointTerm::kViscous}};
+  EXPECT_EQ(BriefReport(diagnosis),
+            "Friction has changed since the reference: elbow.viscous -20 %. "
+            "Nothing else is named: " +
+                refit + "; a change that is like these may hide in that.");
+}
+
+// Held out, a robot as it was is left with little more than the noise, even
+// where what was fitted had a trace of something; only what is left there may
+// have changed.
+TEST(BriefReport, SaysWhatHasChangedWithoutAName) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.moved.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kUnknown;
+  diagnosis.torque.after = 1.9;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "No change since the reference can be named; what is left of "
+            "held-out torque is 1.9 times the noise's mean square: most of it "
+            "on elbow, ordered by its time.");
+  diagnosis.torque.after = 2.3;
+  EXPECT_EQ(BriefReport(diagnosis),
+            "Something has changed since the reference that no known effect "
+            "explains, or shows in this motion alone: most of it on elbow, "
+            "ordered by its time.");
+  diagnosis.moved = {
+      {"elbow.viscous", "N m s/rad", 10, 8, .1, -2, JointTerm::kViscous}};
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr(" -20 %. Something else has"));
+  diagnosis.torque.after = 1;
+  diagnosis.unexplained = {};
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr(" -20 %. No other change since the reference can be "
+                        "named; what is left of held-out torque is the "
+                        "noise."));
+  FoundEffect few = MakeFound("encoder_offset", 1);
+  few.any_probability = .7;
+  few.one_of_few = true;
+  few.equivalent = {{FindEffect("base_tilt"), -1, .3}};
+  diagnosis.unnamed = {few};
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("Probably changed since the reference: one of encoder "
+                        "offset on elbow and base tilt; these data cannot tell "
+                        "which."));
+}
+
 // Whatever the verdict.
 TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
   GapDiagnosis diagnosis = SampleDiagnosis();
@@ -172,8 +236,10 @@ TEST(BriefReport, SaysZerosOfTorquesApart) {
   EXPECT_EQ(BriefReport(diagnosis),
             "Friction has changed since the reference: elbow.viscous -20 %. "
             "Torques' zeros have moved since the reference: elbow.offset +0.1 "
-            "N m, wrist.offset -0.25 N m. Nothing but these, friction and "
-            "timing has changed.");
+            "N m, wrist.offset -0.25 N m. Nothing else is named: refitting the "
+            "model's numbers (friction, links, timing) brings what is left of "
+            "held-out torque from 12 times the noise's mean square to the "
+            "noise; a change that is like these may hide in that.");
 }
 
 TEST(BriefReport, DoesNotCallItNoiseWhereMoreIsLeft) {

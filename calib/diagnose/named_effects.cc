@@ -1,0 +1,138 @@
+#include "calib/diagnose/named_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/names.h"
+#include "model/text/enumeration.h"
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+// What probabilities of effects are worth in words.
+const char* Lacks(double least_probability) {
+  if (IsConfident(least_probability)) return "lacks";
+  return least_probability > Limits().likely ? "probably lacks" : "may lack";
+}
+
+// The same of changes since a reference, up to their list.
+std::string Changed(double least_probability, const GapDiagnosis& diagnosis) {
+  const char* const changed = IsConfident(least_probability) ? "Changed"
+                              : least_probability > Limits().likely
+                                  ? "Probably changed"
+                                  : "May have changed";
+  return changed + (" since " + SinceWhat(diagnosis)) + ": ";
+}
+
+// Effects in a sentence, and how certain the least certain is.
+struct Named {
+  std::vector<std::string> names;
+  double least = 1;
+  bool would_show = false;  // one of them, on held-out data
+
+  void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+    would_show |= found.gain.IsNone();
+    names.push_back(diagnosis.has_reference
+                        ? ChangeOf(found, diagnosis)
+                        : NameOf(*found.effect, found.joint, diagnosis));
+    least = std::min(least, found.probability);
+  }
+  // " lacks payload, delay and backlash on elbow"
+  std::string Lacked(const char* also) const {
+    return std::string(" ") + also + Lacks(least) + " " + Enumeration(names);
+  }
+};
+
+// " lacks viscous friction; refitted with it, 80 % of the file's gap is gone"
+std::string TermsLacked(const Named& terms, double less) {
+  const std::string text = terms.Lacked("");
+  if (!(less >= .5)) return text;
+  return text + Format(
+                    "; refitted with %s, %.0f %% of the file's gap is gone "
+                    "on held-out data",
+                    terms.names.size() > 1 ? "them" : "it", less);
+}
+
+// An effect that is a small part of the gap shrinks it by less than the rest
+// swings: that is no sign against it, where one that would shrink it is.
+std::string Removes(const Named& effects, double removed) {
+  if (!std::isfinite(removed)) return "";
+  if (removed < .5) {
+    return effects.would_show
+               ? ", which does not shrink the gap on held-out data"
+               : ", too small a part of the gap for held-out data to show";
+  }
+  return Format(
+      ", which removes %.0f %% of the gap that refitting leaves on held-out "
+      "data",
+      removed);
+}
+
+// "one of payload, base tilt and encoder offset on elbow"
+std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  std::vector<std::string> names = {
+      NameOf(*found.effect, found.joint, diagnosis)};
+  for (const PlacedEffect& other : found.equivalent) {
+    names.push_back(NameOf(*other.effect, other.joint, diagnosis));
+  }
+  return "one of " + Enumeration(names);
+}
+
+}  // namespace
+
+std::string NamedEffects(const GapDiagnosis& diagnosis) {
+  std::string touched;
+  Named terms, effects;
+  for (const FoundEffect& found : diagnosis.effects) {
+    // ChangedTogether() and the data's findings say so.
+    if (found.of_another_day || found.of_the_stamps) continue;
+    const size_t times = found.contacts.size();
+    if (times > 0) {
+      touched = "Something touched the arm " +
+                (times == 1 ? "once" : std::to_string(times) + " times");
+    } else {
+      const bool is_term = found.fitted.empty() && !diagnosis.has_reference;
+      (is_term ? terms : effects).Add(found, diagnosis);
+    }
+  }
+  const GapFigures& gap = diagnosis.torque;
+  const std::string removes = Removes(effects, gap.removed_percent);
+  if (terms.names.empty() && effects.names.empty()) return touched;
+  if (diagnosis.has_reference) {
+    return touched + (touched.empty() ? "" : ". ") +
+           Changed(effects.least, diagnosis) + Enumeration(effects.names) +
+           removes;
+  }
+  const std::string model = touched.empty() ? "The model" : "; the model";
+  if (terms.names.empty()) {
+    return touched + model + effects.Lacked("") + removes;
+  }
+  if (effects.names.empty()) {
+    return touched + model +
+           TermsLacked(terms, gap.removed_from_nominal_percent);
+  }
+  return touched + model + TermsLacked(terms, gap.refit_removes_percent) +
+         "; it" + effects.Lacked("also ") + removes;
+}
+
+std::string AlikeEffects(const GapDiagnosis& diagnosis) {
+  std::string names;
+  double least = 1;
+  for (const FoundEffect& found : diagnosis.unnamed) {
+    if (!found.one_of_few) continue;
+    names += (names.empty() ? "" : ", and ") + OneOf(found, diagnosis);
+    least = std::min(least, found.any_probability);
+  }
+  if (names.empty()) return "";
+  if (diagnosis.has_reference) {
+    return Changed(least, diagnosis) + names +
+           "; these data cannot tell which.";
+  }
+  return std::string("The model ") + Lacks(least) + " " + names +
+         ": these data cannot tell which.";
+}
+
+}  // namespace armcal

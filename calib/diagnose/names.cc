@@ -1,0 +1,60 @@
+#include "calib/diagnose/names.h"
+
+#include <algorithm>
+
+#include "model/text/format.h"
+
+namespace armcal {
+namespace {
+
+// Whether a sign of the effect's first estimate says which way it goes. With
+// several linear parameters (a payload's mass and moments, a sine and a cosine)
+// there is no such way, and one that cannot be negative has only one.
+bool HasDirection(const FoundEffect& found) {
+  using Parameter = EffectParameter;
+  const std::vector<Parameter>& all = found.effect->parameters;
+  const auto is_linear = [](const Parameter& parameter) {
+    return parameter.search == Parameter::Search::kLinear;
+  };
+  const auto first = std::find_if(all.begin(), all.end(), is_linear);
+  return std::count_if(all.begin(), all.end(), is_linear) == 1 &&
+         first->sign == Parameter::Sign::kFree && !found.estimates.empty() &&
+         found.estimates[0].value != 0;
+}
+
+}  // namespace
+
+std::string NameOf(const Effect& effect, int joint,
+                   const GapDiagnosis& diagnosis) {
+  std::string text = effect.name;
+  for (char& c : text) {
+    if (c == '_') c = ' ';
+  }
+  if (joint >= 0) text += " on " + diagnosis.joints[joint].name;
+  return text;
+}
+
+std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  const std::string name = NameOf(*found.effect, found.joint, diagnosis);
+  if (!HasDirection(found)) return name;
+  const EffectEstimate& size = found.estimates[0];
+  if (found.effect->nature != Effect::Nature::kParameter) {
+    const std::string unit = size.unit == "1" ? "" : " " + size.unit;
+    return name + Format(" (%+.2g", size.value) + unit + ")";
+  }
+  // There is more of friction or inertia; a length is larger.
+  const bool is_amount = found.effect->joint_term.has_value();
+  if (size.value > 0) return (is_amount ? "more " : "larger ") + name;
+  return (is_amount ? "less " : "smaller ") + name;
+}
+
+std::string SinceWhat(const GapDiagnosis& diagnosis) {
+  const bool is_calibrations = diagnosis.calibrations_logs ==
+                               GapDiagnosis::CalibrationsLogs::kAreTheReference;
+  if (diagnosis.has_reference && !is_calibrations) return "the reference";
+  return diagnosis.has_calibration ? "the calibration" : "";
+}
+
+bool IsConfident(double probability) { return probability >= .8; }
+
+}  // namespace armcal

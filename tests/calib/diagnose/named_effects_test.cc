@@ -1,0 +1,57 @@
+#include "calib/diagnose/named_effects.h"
+
+#include <gmock/gmock.h>
+
+#include "calib/diagnose/sentence.h"
+#include "tests/calib/diagnose/sample_diagnosis.h"
+
+namespace armcal::named_effects_test {
+
+using testing::HasSubstr;
+
+// With a reference the question is what has changed, and an effect is a change
+// since it, with its direction: friction of -.08 N m is less, not lacking.
+TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.has_reference = true;
+  diagnosis.moved.clear();
+  FoundEffect friction = MakeFound("coulomb_friction", 1);
+  friction.estimates = {{"coulomb", "N m", -.08}};
+  diagnosis.effects = {MakeFound("payload", -1), friction};
+  EXPECT_EQ(BriefReport(diagnosis),
+            "Changed since the reference: payload and less coulomb friction "
+            "on elbow, which removes 93 % of the gap that refitting leaves on "
+            "held-out data.");
+  diagnosis.effects[1].estimates[0].value = .08;
+  diagnosis.effects[1].probability = .6;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("Probably changed since the reference: payload and "
+                        "more coulomb friction on elbow, which"));
+  diagnosis.effects[1].probability = .5;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("May have changed since the reference: payload"));
+  diagnosis.effects.push_back(MakeTouched());
+  diagnosis.verdict = GapVerdict::kPartlyExplained;
+  EXPECT_THAT(BriefReport(diagnosis),
+              testing::AllOf(HasSubstr("Something touched the arm 2 times. May "
+                                       "have changed since the reference: "),
+                             testing::EndsWith("; something else is left.")));
+}
+
+// A calibration's own logs are a reference; where they have the effect as well
+// the calibrated robot lacks it, and nothing is said to have changed.
+TEST(NamedEffects, TellsEffectsAsChangesSinceACalibration) {
+  using Logs = GapDiagnosis::CalibrationsLogs;
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.has_calibration = diagnosis.has_reference = true;
+  diagnosis.calibrations_logs = Logs::kAreTheReference;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("Changed since the calibration: stribeck on elbow"));
+  diagnosis.has_reference = false;
+  for (const Logs logs : {Logs::kHaveItToo, Logs::kUnknown}) {
+    diagnosis.calibrations_logs = logs;
+    EXPECT_THAT(BriefReport(diagnosis), HasSubstr("The model lacks stribeck"));
+  }
+}
+
+}  // namespace armcal::named_effects_test

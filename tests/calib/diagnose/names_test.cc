@@ -1,0 +1,50 @@
+#include "calib/diagnose/names.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/calib/diagnose/sample_diagnosis.h"
+
+namespace armcal::names_test {
+
+// `value`: of the effect's first estimate.
+std::string Told(const std::string& name, int joint, const std::string& unit,
+                 double value) {
+  FoundEffect found = MakeFound(name, joint);
+  found.estimates[0] = {"size", unit, value};
+  return ChangeOf(found, SampleDiagnosis());
+}
+
+TEST(ChangeOf, TellsMoreOrLessOfNumbersThatAnyRobotHas) {
+  EXPECT_EQ(Told("viscous_friction", 1, "N m s/rad", .2),
+            "more viscous friction on elbow");
+  EXPECT_EQ(Told("viscous_friction", 1, "N m s/rad", -.2),
+            "less viscous friction on elbow");
+  EXPECT_EQ(Told("armature", 0, "kg m^2", -.1), "less armature on shoulder");
+  EXPECT_EQ(Told("link_length", 0, "m", .01), "larger link length on shoulder");
+  EXPECT_EQ(Told("link_inertia", 0, "1", -.1),
+            "smaller link inertia on shoulder");
+}
+
+// Less of an offset would be one nearer to 0, and less delay one that is
+// shorter: their signs are told as such.
+TEST(ChangeOf, TellsOtherSignsWithTheSize) {
+  EXPECT_EQ(Told("torque_gain", 1, "1", -.0799),
+            "torque gain on elbow (-0.08)");
+  EXPECT_EQ(Told("encoder_offset", 1, "rad", .0175),
+            "encoder offset on elbow (+0.018 rad)");
+  EXPECT_EQ(Told("delay", -1, "s", -.002), "delay (-0.002 s)");
+}
+
+// A payload is a mass and where it is, a ripple a sine and a cosine; a play
+// cannot be negative. Nothing is said of what is not known either.
+TEST(ChangeOf, TellsNoDirectionWhereThereIsNone) {
+  EXPECT_EQ(Told("payload", -1, "kg", -1), "payload");
+  EXPECT_EQ(Told("torque_ripple", 1, "N m", 1), "torque ripple on elbow");
+  EXPECT_EQ(Told("backlash", 1, "rad", .01), "backlash on elbow");
+  EXPECT_EQ(Told("coulomb_friction", 1, "N m", 0), "coulomb friction on elbow");
+  FoundEffect found = MakeFound("coulomb_friction", 1);
+  found.estimates.clear();
+  EXPECT_EQ(ChangeOf(found, SampleDiagnosis()), "coulomb friction on elbow");
+}
+
+}  // namespace armcal::names_test
