@@ -27,7 +27,9 @@ struct EffectParameter {
     kTime,               // from where in time the residual is large, s
     kDuration            // s
   };
-  enum class Sign { kFree, kPositive };
+  // kAsFirst: that of the effect's first parameter, as a body's inertia has the
+  // sign of its mass, also where it was taken off.
+  enum class Sign { kFree, kPositive, kAsFirst };
 
   std::string name;  // as in diagnosis.json: "stribeck_velocity"
   std::string unit;  // with E for the joint's effort (N m or N), P for its
@@ -112,9 +114,11 @@ struct Effect {
   // Adds what robot files with drives have for its `numbers`, if they do.
   std::function<bool(const EffectNumbers& numbers, JointDrive* drive)>
       set_drive;
-  // Whether the estimates can be of a real arm; empty: always. Those that
-  // cannot are not reported.
-  std::function<bool(const std::vector<EffectEstimate>& estimates)> plausible;
+  // Whether the estimates can be of a real arm like this; empty: always. Those
+  // that cannot are not reported.
+  std::function<bool(const EffectSite& site,
+                     const std::vector<EffectEstimate>& estimates)>
+      plausible;
   // Whether it is a push of the surroundings on the arm: what the search for
   // contacts finds is reported as this effect. Exactly one is.
   bool is_contact = false;

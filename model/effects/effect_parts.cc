@@ -47,6 +47,12 @@ double MovingMass(const Robot& robot) {
   return mass;
 }
 
+bool IsOfAnArm(const Robot& robot, double mass) {
+  constexpr double kMost = 3;
+  const double moving = MovingMass(robot);
+  return !(moving > 0 && std::abs(mass) > kMost * moving);
+}
+
 double Duration(const EffectSite& site) {
   return std::max(site.scale->end - site.scale->begin, 1e-3);
 }

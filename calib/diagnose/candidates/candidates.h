@@ -42,6 +42,11 @@ struct GapCandidate {
     return !is_change && effect->parameters[parameter].sign ==
                              EffectParameter::Sign::kPositive;
   }
+  // Whether it has the sign of the first parameter.
+  bool IsAsFirst(int parameter) const {
+    return effect->parameters[parameter].sign ==
+           EffectParameter::Sign::kAsFirst;
+  }
   bool IsIn(int other_log) const { return log < 0 || log == other_log; }
   std::string place() const;
 };

@@ -104,6 +104,7 @@ std::vector<Coordinate> ListCoordinates(
                        effect.p[k], size);
       if (!c) continue;
       if (effect.IsPositive(k)) c->low = 0;
+      if (effect.IsAsFirst(k)) (effect.p[0] < 0 ? c->high : c->low) = 0;
       c->effect = e;
       c->parameter = k;
       coordinates.push_back(*c);

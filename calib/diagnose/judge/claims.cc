@@ -10,7 +10,7 @@ namespace {
 
 // Whether it is told as an effect where it has this probability.
 bool IsClaimedAt(const FoundEffect& found, double probability) {
-  if (!IsPossible(found) || IsContradicted(found)) return false;
+  if (!found.is_possible || IsContradicted(found)) return false;
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // A law that the reference has as well, though it was not told of it, is no
@@ -52,10 +52,6 @@ bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
            const bool shrinks = found.evidence.gain.ci95[0] > 0;
            return (IsSeenAgain(found) || shrinks) && IsBeyondScatter(found);
          });
-}
-
-bool IsPossible(const FoundEffect& found) {
-  return !found.effect->plausible || found.effect->plausible(found.estimates);
 }
 
 bool IsContradicted(const FoundEffect& found) {

@@ -28,9 +28,6 @@ bool IsSeenAgain(const FoundEffect& found);
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
                         const GapFigures& held_out);
 
-// Whether such a thing can be: a load is held by the tool.
-bool IsPossible(const FoundEffect& found);
-
 // Whether held-out data should show it, and have neither chi^2 nor the mean
 // square lower with it. A form that is a little too large raises chi^2 alone;
 // and what is small compared to what it explained where it was fitted may be

@@ -232,9 +232,12 @@ bool IsPossible(const CorrectedRobot& robot) {
                               WhyUnphysical(link.inertial).empty();
                      }) &&
          std::all_of(robot.effects.begin(), robot.effects.end(),
-                     [](const CarriedEffect& carried) {
+                     [&](const CarriedEffect& carried) {
                        const auto& plausible = carried.found.effect->plausible;
-                       return !plausible || plausible(carried.estimates);
+                       const EffectSite site = {&robot.plant.robot,
+                                                carried.found.joint,
+                                                &robot.scale};
+                       return !plausible || plausible(site, carried.estimates);
                      });
 }
 

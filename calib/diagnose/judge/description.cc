@@ -24,6 +24,8 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   found->estimates.insert(found->estimates.end(), estimates.begin(),
                           estimates.end());
   found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
+  found->is_possible = !effect.effect->plausible ||
+                       effect.effect->plausible(site, found->estimates);
 }
 
 // A missing term's values are those of the model with the effects, told for the

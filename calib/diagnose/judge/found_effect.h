@@ -18,6 +18,9 @@ namespace armcal {
 struct FoundEffect {
   const Effect* effect = nullptr;
   int joint = -1;  // from 0; -1: all joints or the whole robot
+  // Whether a real arm can have the estimates (Effect::plausible): a load is
+  // held by the tool.
+  bool is_possible = true;
   double probability = 0;
   double any_probability = 0;  // that it or one of `equivalent` is there
   double score = 0;

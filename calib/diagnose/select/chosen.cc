@@ -39,7 +39,8 @@ bool IsPossible(const GapCandidate& fitted, const Robot& robot,
                 const MotionScale& scale) {
   const EffectSite site = {&robot, fitted.joint, &scale};
   return !fitted.effect->plausible ||
-         fitted.effect->plausible(EstimatesOf(*fitted.effect, site, fitted.p));
+         fitted.effect->plausible(site,
+                                  EstimatesOf(*fitted.effect, site, fitted.p));
 }
 
 }  // namespace armcal

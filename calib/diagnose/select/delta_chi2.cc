@@ -92,12 +92,13 @@ VectorXd DeltaChi2Given::Conditioned(const VectorXd& gradient) const {
 }
 
 // delta_chi2 = g' G^-1 g = g' x, with coefficients of a known sign kept at that
-// sign. That is a small non-negative least squares problem, solved as by Lawson
-// and Hanson (1974, chapter 23) without their way back: the coefficient that is
-// the most negative leaves, and the rest is fitted again. Candidates have so
-// few columns that one which would have to come back is rare, and then
-// delta_chi2 is too small rather than too large. Where every coefficient has
-// the wrong sign the law would have to act backwards, and explains nothing.
+// sign, or at that of the first. That is a small non-negative least squares
+// problem, solved as by Lawson and Hanson (1974, chapter 23) without their way
+// back: the coefficient that is the most negative leaves, and the rest is
+// fitted again. Candidates have so few columns that one which would have to
+// come back is rare, and then delta_chi2 is too small rather than too large.
+// Where every coefficient has the wrong sign the law would have to act
+// backwards, and explains nothing.
 double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
   const GapCandidate& candidate = candidates_[i];
   const Own& own = own_[i];
@@ -114,16 +115,22 @@ double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
   while (true) {
     const VectorXd x = Coefficients(own.G, g, used);
     int wrong = -1, right = 0;
+    bool any_positive = false;
     for (int k = 0; k < x.size(); ++k) {
       if (!used[k] || !candidate.IsPositive(candidate.linear[k])) continue;
+      any_positive = true;
       if (x[k] >= 0) {
         ++right;
       } else if (wrong < 0 || x[k] < x[wrong]) {
         wrong = k;
       }
     }
+    if (any_positive && right == 0) return 0;
+    for (int k = 0; k < x.size() && wrong < 0; ++k) {
+      const bool is_as_first = candidate.IsAsFirst(candidate.linear[k]);
+      if (used[k] && is_as_first && x[k] * x[0] < 0) wrong = k;
+    }
     if (wrong < 0) return g.dot(x);
-    if (right == 0) return 0;
     used[wrong] = false;
   }
 }

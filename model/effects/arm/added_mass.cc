@@ -15,6 +15,11 @@ std::vector<EffectEstimate> AddedMassEstimates(const EffectSite&,
           {"inertia", "kg m^2", p[4]}};
 }
 
+bool IsOnTheArm(const EffectSite& site,
+                const std::vector<EffectEstimate>& estimates) {
+  return IsOfAnArm(*site.robot, estimates[0].value);
+}
+
 }  // namespace
 
 // A body fixed to a link (a weight, a hose, a valve block), or one that was
@@ -38,10 +43,10 @@ Effect AddedMass() {
   const auto inertia = [mass](const EffectSite& site) {
     return kLever * kLever * mass(site);
   };
-  effect.parameters = {Linear("mass", "kg", mass), Linear("hx", "kg m", moment),
-                       Linear("hy", "kg m", moment),
-                       Linear("hz", "kg m", moment),
-                       Linear("inertia", "kg m^2", inertia)};
+  effect.parameters = {
+      Linear("mass", "kg", mass), Linear("hx", "kg m", moment),
+      Linear("hy", "kg m", moment), Linear("hz", "kg m", moment),
+      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kAsFirst)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters body;
@@ -58,6 +63,7 @@ Effect AddedMass() {
                ? "on the last link it is a payload"
                : WhyNotCarried(site);
   };
+  effect.plausible = IsOnTheArm;
   effect.experiment = "poses of the joints before, held, and swung";
   return effect;
 }

@@ -9,7 +9,8 @@ namespace {
 
 // A link with a tenth of its mass left, or with more than twice its own,
 // carries something or has lost it: another effect.
-bool IsOfTheLink(const std::vector<EffectEstimate>& estimates) {
+bool IsOfTheLink(const EffectSite&,
+                 const std::vector<EffectEstimate>& estimates) {
   return estimates[0].value > -.9 && estimates[0].value < 1;
 }
 

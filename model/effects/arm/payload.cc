@@ -41,7 +41,8 @@ std::vector<EffectEstimate> PayloadEstimates(const EffectSite& site,
 // A centre of mass far from the last link is of no load, nor is a moment
 // without a mass, whose centre is infinitely far; of nothing (0 / 0) it is
 // anywhere.
-bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
+bool IsCarried(const EffectSite& site,
+               const std::vector<EffectEstimate>& estimates) {
   constexpr double kFarthest = 1;  // m, from the last link's frame
   double squared = 0;
   for (const EffectEstimate& estimate : estimates) {
@@ -49,7 +50,8 @@ bool IsWithinReach(const std::vector<EffectEstimate>& estimates) {
       squared += estimate.value * estimate.value;
     }
   }
-  return squared <= kFarthest * kFarthest;
+  return squared <= kFarthest * kFarthest &&
+         IsOfAnArm(*site.robot, estimates[0].value);
 }
 
 }  // namespace
@@ -80,7 +82,7 @@ Effect Payload() {
       Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
       Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
       Linear("hz", "kg m", moment),
-      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kPositive)};
+      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kAsFirst)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters payload;
@@ -101,7 +103,7 @@ Effect Payload() {
     return "no joint moves the tool's frame: a mass on the last link tells its "
            "moment alone";
   };
-  effect.plausible = IsWithinReach;
+  effect.plausible = IsCarried;
   effect.experiment = "poses of the wrist, held, and the arm swung";
   return effect;
 }

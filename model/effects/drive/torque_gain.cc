@@ -7,7 +7,8 @@ namespace {
 
 // A motor that gives ten times what is recorded or more, or the opposite, or a
 // third of it, has another fault than its constant.
-bool IsOfAConstant(const std::vector<EffectEstimate>& estimates) {
+bool IsOfAConstant(const EffectSite&,
+                   const std::vector<EffectEstimate>& estimates) {
   return estimates[0].value > -.9 && estimates[0].value < 2;
 }
 

@@ -63,7 +63,8 @@ struct SpeedLine {
 bool IsALimit(double share) { return share > .5 && share < 1.5; }
 bool MayBeALimit(double share) { return share > .1 && share < 3; }
 
-bool HasShareOfALimit(const std::vector<EffectEstimate>& estimates) {
+bool HasShareOfALimit(const EffectSite&,
+                      const std::vector<EffectEstimate>& estimates) {
   const auto share = std::find_if(
       estimates.begin(), estimates.end(),
       [](const EffectEstimate& one) { return one.name == "share"; });

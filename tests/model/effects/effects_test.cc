@@ -226,11 +226,19 @@ TEST(Effects, PayloadsAreWithinReach) {
   const Effect& payload = *FindEffect("payload");
   const auto is_plausible = [&](std::vector<double> p) {
     return payload.plausible(
+        arm.Site(-1),
         EstimatesOf(payload, arm.Site(-1),
                     Eigen::Map<const Eigen::VectorXd>(p.data(), p.size())));
   };
   EXPECT_TRUE(is_plausible({2, .2, 0, 0, 0}));
   EXPECT_FALSE(is_plausible({.1, 2, 0, 0, 0}));
+  double moving = 0;
+  for (const Link& link : arm.robot.links) moving += link.inertial.mass;
+  EXPECT_TRUE(is_plausible({moving, 0, 0, 0, 0}));
+  EXPECT_FALSE(is_plausible({4 * moving, 0, 0, 0, 0}));
+  const double untold = std::nan("");
+  EXPECT_TRUE(payload.plausible(
+      arm.Site(-1), {{"mass", "kg", untold}, {"com_x", "m", untold}}));
   EXPECT_FALSE(is_plausible({0, .2, 0, 0, 0}));
   EXPECT_TRUE(is_plausible({0, 0, 0, 0, .01}));
 }

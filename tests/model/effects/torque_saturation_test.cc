@@ -63,7 +63,7 @@ TEST(TorqueSaturation, IsALimitOfADriveByItsShare) {
   EXPECT_FALSE(drive_of(.3, .5, &drive));
   const auto is_plausible = [&](double share) {
     return effect.plausible(
-        EstimatesOf(effect, site, Eigen::Vector4d(share, 8, .05, .5)));
+        site, EstimatesOf(effect, site, Eigen::Vector4d(share, 8, .05, .5)));
   };
   EXPECT_TRUE(is_plausible(.3));
   EXPECT_FALSE(is_plausible(.05));

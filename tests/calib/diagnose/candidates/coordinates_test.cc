@@ -76,6 +76,20 @@ TEST_F(GapCoordinatesTest, OfOneEffectOrOfAll) {
   EXPECT_EQ(second[0].parameter, 0);
 }
 
+// Of one that was taken off, too.
+TEST_F(GapCoordinatesTest, ABodysInertiaHasTheSignOfItsMass) {
+  for (const double sign : {1., -1.}) {
+    GapCandidate body = OfOnes("added_mass");
+    body.p *= sign;
+    const auto coordinates = ListCoordinates(baseline_, arm_.scale, {body}, 0);
+    ASSERT_EQ(coordinates.size(), 5u);
+    const Coordinate& inertia = coordinates[4];
+    EXPECT_EQ(sign > 0 ? inertia.low : inertia.high, 0);
+    EXPECT_TRUE(std::isinf(sign > 0 ? inertia.high : inertia.low));
+    EXPECT_TRUE(std::isinf(coordinates[0].low));
+  }
+}
+
 TEST_F(GapCoordinatesTest, StartsAtTheValueAndKnowsItsBounds) {
   for (const char* name : {"stribeck", "cable", "elasticity"}) {
     for (const Coordinate& c : Of(name)) {

@@ -128,14 +128,13 @@ TEST_F(IsClaimedTest, WhatSwingsInTimeHelps) {
   EXPECT_FALSE(Claimed(.9, -.01));
 }
 
-TEST_F(IsClaimedTest, ALoadIsWithinReachOfTheTool) {
+// As of a load that is out of the tool's reach
+// (Effects.PayloadsAreWithinReach).
+TEST_F(IsClaimedTest, WhatARealArmCanHave) {
   found_ = Found("payload", -1, 50);
-  found_.estimates = {{"mass", "kg", .1}, {"com_x", "m", .3}};
   EXPECT_TRUE(Claimed(.9, .1));
-  found_.estimates[1].value = 1.8;
+  found_.is_possible = false;
   EXPECT_FALSE(Claimed(.9, .1));
-  found_.estimates[1].value = std::nan("");  // not seen
-  EXPECT_TRUE(Claimed(.9, .1));
 }
 
 // Two that data cannot tell apart are claimed together where one of them is

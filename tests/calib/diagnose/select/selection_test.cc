@@ -182,6 +182,33 @@ TEST_F(GapSelectionTest, APartThatIsNotThereIsNoObstacle) {
   EXPECT_THAT(Select().chosen, IsEmpty());
 }
 
+// A mass and an inertia of the same sign, of a body that was put on or taken
+// off: what asks for the other sign is something else.
+TEST_F(GapSelectionTest, APartHasTheSignOfTheFirst) {
+  AddRandom(5);
+  const VectorXd other = Noise(&random_);
+  GapCandidate& law = candidates_[3];
+  law.linear = {0, 1};
+  law.columns.push_back(static_cast<int>(columns_.size()));
+  columns_.push_back({other, {}});
+  effects_[3].parameters.resize(2);
+  effects_[3].parameters[1].sign = EffectParameter::Sign::kAsFirst;
+  const auto explained = [&](double first, double second) {
+    target_[0] = first * Column(3) + second * other;
+    return ScoresGiven(Screen(), candidates_, {}, {}, -1)[3] +
+           Penalty(Screen(), candidates_[3]);
+  };
+  const double both = explained(.5, .2), one = explained(.5, 0);
+  EXPECT_GT(both, one + 20);
+  EXPECT_NEAR(explained(-.5, -.2), both, 1e-6 * both);
+  for (const double sign : {1., -1.}) {
+    const double found = explained(sign * .5, -sign * .2);
+    const double by_first =
+        std::pow(target_[0].dot(Column(3)), 2) / Column(3).squaredNorm();
+    EXPECT_NEAR(found, by_first, 1e-3 * by_first);
+  }
+}
+
 TEST_F(GapSelectionTest, ShapesOfOneEffectAreNotTwoEffects) {
   AddRandom(3);
   const int other = Add(2, 0, Noise(&random_));
