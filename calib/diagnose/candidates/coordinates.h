@@ -24,6 +24,7 @@ struct Coordinate {
 
   double Value(double u) const {
     if (u == Inverse(low)) return low;
+    if (u == Inverse(high)) return high;
     return by_factors ? centre * std::exp(scale * (u - 1))
                       : centre + scale * (u - 1);
   }

@@ -82,7 +82,7 @@ Effect Payload() {
       Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
       Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
       Linear("hz", "kg m", moment),
-      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kAsFirst)};
+      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kPositive)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters payload;

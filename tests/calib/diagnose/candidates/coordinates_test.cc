@@ -84,7 +84,9 @@ TEST_F(GapCoordinatesTest, ABodysInertiaHasTheSignOfItsMass) {
     const auto coordinates = ListCoordinates(baseline_, arm_.scale, {body}, 0);
     ASSERT_EQ(coordinates.size(), 5u);
     const Coordinate& inertia = coordinates[4];
-    EXPECT_EQ(sign > 0 ? inertia.low : inertia.high, 0);
+    const double bound = sign > 0 ? inertia.low : inertia.high;
+    EXPECT_EQ(bound, 0);
+    EXPECT_EQ(inertia.Value(inertia.Inverse(bound)), 0);
     EXPECT_TRUE(std::isinf(sign > 0 ? inertia.high : inertia.low));
     EXPECT_TRUE(std::isinf(coordinates[0].low));
   }
