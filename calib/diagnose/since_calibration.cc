@@ -86,6 +86,12 @@ bool IsWhatTheModelLacks(const Robot& robot, const DiagnosisOptions& beside,
 
 }  // namespace
 
+bool TellsOfAChange(const GapDiagnosis& changed) {
+  return !changed.effects.empty() ||
+         std::any_of(changed.unnamed.begin(), changed.unnamed.end(),
+                     [](const FoundEffect& one) { return one.one_of_few; });
+}
+
 GapDiagnosis DiagnoseSinceCalibration(const Robot& calibrated,
                                       const DiagnosisOptions& options,
                                       double trust_beside_own,
@@ -99,7 +105,7 @@ GapDiagnosis DiagnoseSinceCalibration(const Robot& calibrated,
       DiagnoseGap(calibrated, beside, training, validation, &own);
   changed.has_calibration = true;
   changed.calibrations_logs = GapDiagnosis::CalibrationsLogs::kAreTheReference;
-  if (!changed.effects.empty()) return changed;
+  if (TellsOfAChange(changed)) return changed;
   GapDiagnosis lacks =
       DiagnoseGap(calibrated, options, training, validation, nullptr);
   if (lacks.verdict == GapVerdict::kNotTestable) return lacks;

@@ -60,4 +60,17 @@ TEST_F(SinceCalibrationTest, WhereNothingIsMissingNothingIsNamed) {
   EXPECT_EQ(diagnosis.verdict, GapVerdict::kNoiseFloor);
 }
 
+// Two of which one is there are a change, though neither is named.
+TEST(TellsOfAChange, WhereOneOfAFewIsThere) {
+  GapDiagnosis changed;
+  EXPECT_FALSE(TellsOfAChange(changed));
+  changed.unnamed.emplace_back();
+  EXPECT_FALSE(TellsOfAChange(changed));
+  changed.unnamed.back().one_of_few = true;
+  EXPECT_TRUE(TellsOfAChange(changed));
+  changed.unnamed.clear();
+  changed.effects.emplace_back();
+  EXPECT_TRUE(TellsOfAChange(changed));
+}
+
 }  // namespace armcal::since_calibration_test
