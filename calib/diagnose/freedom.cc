@@ -95,11 +95,6 @@ std::optional<size_t> LeastNeeded(const GapFit& fit,
   return least;
 }
 
-// Three joints, or all of two.
-double SeveralJoints(const GapFit& fit) {
-  return std::min<double>(Limits().several_joints, fit.rows().num_joints());
-}
-
 // Those of all joints that the logs contradict (freedom.h).
 std::vector<TermChange> ContradictedChanges(const GapFit& fit) {
   // One joint's friction is one number among others that may have changed.
@@ -108,9 +103,9 @@ std::vector<TermChange> ContradictedChanges(const GapFit& fit) {
   while (const auto least = LeastNeeded(fit, changes)) {
     changes.erase(changes.begin() + static_cast<long>(*least));
   }
-  if (changes.empty() ||
-      JointsExplained(fit.screen(), SolveWith(fit, {}),
-                      SolveWith(fit, changes)) < SeveralJoints(fit)) {
+  if (changes.empty() || JointsExplained(fit.screen(), SolveWith(fit, {}),
+                                         SolveWith(fit, changes)) <
+                             SeveralOf(fit.rows().num_joints())) {
     return {};
   }
   return changes;
@@ -160,7 +155,8 @@ std::vector<const Effect*> TermsOfOtherDrives(const GapFit& fit) {
   const std::vector<TermChange> changes = ContradictedChanges(fit);
   if (changes.empty()) return {};
   const std::set<int> joints = JointsOfOtherDrives(fit, changes);
-  if (static_cast<double>(joints.size()) < SeveralJoints(fit)) return {};
+  if (static_cast<double>(joints.size()) < SeveralOf(fit.rows().num_joints()))
+    return {};
   return EffectsOf(changes);
 }
 

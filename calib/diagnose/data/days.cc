@@ -118,8 +118,7 @@ bool IsAnotherDay(const GapBaseline& baseline, const Eigen::VectorXd& x,
     if (!ChangedTogether(baseline, term, x, covariance).empty()) return true;
   }
   return static_cast<int>(changed.size()) >=
-         std::min<double>(Limits().several_joints,
-                          baseline.robot().num_joints());
+         SeveralOf(baseline.robot().num_joints());
 }
 
 }  // namespace armcal

@@ -1,5 +1,6 @@
 #include "calib/diagnose/data/thresholds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
@@ -322,6 +323,10 @@ double PositiveNumber(const std::string& text) {
 }  // namespace
 
 const Thresholds& Limits() { return Own(); }
+
+double SeveralOf(int joints) {
+  return std::min<double>(Limits().several_joints, joints);
+}
 
 const std::vector<ThresholdInfo>& ListThresholds() { return kAll; }
 

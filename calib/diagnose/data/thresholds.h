@@ -105,6 +105,8 @@ struct Thresholds {
 
 // Those of this process.
 const Thresholds& Limits();
+// What counts as several of so many joints: several_joints, or all of fewer.
+double SeveralOf(int joints);
 
 struct ThresholdInfo {
   // Whether it follows from a law (a quantile, a count, a published

@@ -4,6 +4,7 @@
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/chosen.h"
 
 namespace armcal {
 
@@ -24,8 +25,7 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   found->estimates.insert(found->estimates.end(), estimates.begin(),
                           estimates.end());
   found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
-  found->is_possible = !effect.effect->plausible ||
-                       effect.effect->plausible(site, found->estimates);
+  found->is_possible = IsPossible(effect, *site.robot, *site.scale);
 }
 
 // A missing term's values are those of the model with the effects, told for the

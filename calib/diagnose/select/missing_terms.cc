@@ -143,9 +143,7 @@ class MissingTermFit {
     const Eigen::ArrayXd with = Left(all).array().square();
     const Eigen::ArrayXd without = Left(0).array().square();
     const auto joints = (with < (1 - Limits().explains) * without).count();
-    const double several =
-        std::min<double>(Limits().several_joints, robot_.num_joints());
-    if (static_cast<double>(joints) < several) return {};
+    if (static_cast<double>(joints) < SeveralOf(robot_.num_joints())) return {};
     std::vector<JointTerm> contradicted;
     for (int f = 0; f < all; ++f) {
       const MissingTerm term = Term(f);

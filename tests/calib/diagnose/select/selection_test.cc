@@ -48,6 +48,16 @@ class GapSelectionTest : public testing::Test {
   void AddRandom(int count) {
     for (int k = 0; k < count; ++k) Add(k, 0, Noise(&random_));
   }
+  // A second linear parameter of the candidate's effect, and its column.
+  VectorXd AddPart(int candidate) {
+    const VectorXd column = Noise(&random_);
+    GapCandidate& law = candidates_[candidate];
+    law.linear = {0, 1};
+    law.columns.push_back(static_cast<int>(columns_.size()));
+    columns_.push_back({column, {}});
+    effects_[candidate].parameters.resize(2);
+    return column;
+  }
   GapScreen Screen() const {
     const MatrixXd baseline = MatrixXd::Constant(kRows, 1, 1e-3);
     GapScreen screen(OnEachJoint({baseline, baseline}), 1, target_);
@@ -167,12 +177,7 @@ TEST_F(GapSelectionTest, WhatCanOnlyBePositiveIsNotFoundNegative) {
 // Of two that can only be positive, one may be 0: the other is found.
 TEST_F(GapSelectionTest, APartThatIsNotThereIsNoObstacle) {
   AddRandom(5);
-  const VectorXd other = Noise(&random_);
-  GapCandidate& law = candidates_[3];
-  law.linear = {0, 1};
-  law.columns.push_back(static_cast<int>(columns_.size()));
-  columns_.push_back({other, {}});
-  effects_[3].parameters.resize(2);
+  const VectorXd other = AddPart(3);
   for (EffectParameter& parameter : effects_[3].parameters) {
     parameter.sign = EffectParameter::Sign::kPositive;
   }
@@ -186,12 +191,7 @@ TEST_F(GapSelectionTest, APartThatIsNotThereIsNoObstacle) {
 // off: what asks for the other sign is something else.
 TEST_F(GapSelectionTest, APartHasTheSignOfTheFirst) {
   AddRandom(5);
-  const VectorXd other = Noise(&random_);
-  GapCandidate& law = candidates_[3];
-  law.linear = {0, 1};
-  law.columns.push_back(static_cast<int>(columns_.size()));
-  columns_.push_back({other, {}});
-  effects_[3].parameters.resize(2);
+  const VectorXd other = AddPart(3);
   effects_[3].parameters[1].sign = EffectParameter::Sign::kAsFirst;
   const auto explained = [&](double first, double second) {
     target_[0] = first * Column(3) + second * other;
