@@ -94,14 +94,30 @@ class OtherFriction : public testing::Test {
       link.joint.armature = armature;
     }
     robot.links[1].joint.viscous *= on_second;
+    if (load_ > 0) robot = WithLoad(robot);
+    for (int j = 0; j < 6; ++j) robot.links[j].joint.viscous *= OfTheDay(j);
     Log log = RecordMotion(RandomMultisine(&random_, 6, 1.2), 30, .004);
     AddTorque(robot, &log);
-    for (int j = 0; j < 6; ++j) AddCoulomb(j, coulomb, kTransition, &log);
+    for (int j = 0; j < 6; ++j)
+      AddCoulomb(j, coulomb / OfTheDay(j), kTransition, &log);
     AddNoise(&random_, .005 * ColumnRms(log.tau), &log.tau);
     LogReaderOptions reader;
     reader.joint_names = file_.JointNames();
     return LogSet({WriteFile(LogCsv(log), name)}, reader, {});
   }
+
+  // A few cm beside the tool's frame.
+  Robot WithLoad(const Robot& robot) const {
+    Eigen::VectorXd load(5);
+    load << load_, load_ * Eigen::Vector3d(.05, .02, .05), 0;
+    SimulatedRobot loaded;
+    loaded.robot = robot;
+    FindEffect("payload")->apply({&robot, -1, nullptr}, load, &loaded);
+    return loaded.robot;
+  }
+
+  // By which a joint has more viscous friction and less Coulomb friction.
+  double OfTheDay(int joint) const { return joint % 2 == 0 ? 1 / day_ : day_; }
 
   GapDiagnosis Diagnose(const LogSet& log, const LogSet* reference) const {
     DiagnosisOptions options;
@@ -136,6 +152,8 @@ class OtherFriction : public testing::Test {
     }
   }
 
+  double load_ = 0;  // kg
+  double day_ = 1;
   std::mt19937_64 random_{1};
   Robot file_ = SampleRobot("UR5 6R");
 };
@@ -169,6 +187,28 @@ TEST_F(OtherFriction, OfAColdDayIsTheReferences) {
   const GapDiagnosis diagnosis = Diagnose(log, &reference);
   EXPECT_TRUE(diagnosis.has_reference);
   EXPECT_TRUE(diagnosis.not_of_reference.empty());
+}
+
+// Friction that is a tenth off on each joint, one way or the other, is that of
+// another day, also where a load comes with it.
+TEST_F(OtherFriction, OfALoadOnAnotherDayIsTheReferences) {
+  for (Link& link : file_.links) {
+    link.joint.viscous = kViscous;
+    link.joint.coulomb = kCoulomb;
+    link.joint.armature = kArmature;
+  }
+  const LogSet reference = Record(kViscous, kCoulomb, kArmature, "before.csv");
+  load_ = 1;
+  day_ = 1.1;
+  const LogSet log = Record(kViscous, kCoulomb, kArmature, "loaded.csv");
+  const GapDiagnosis diagnosis = Diagnose(log, &reference);
+  EXPECT_TRUE(diagnosis.has_reference);
+  EXPECT_TRUE(diagnosis.not_of_reference.empty());
+  const auto payload = std::find_if(
+      diagnosis.effects.begin(), diagnosis.effects.end(),
+      [](const auto& one) { return one.effect->name == "payload"; });
+  ASSERT_NE(payload, diagnosis.effects.end());
+  ExpectEstimate(*payload, "mass", load_, .05);
 }
 
 // One joint's friction is an effect, and the reference one still.
