@@ -287,11 +287,14 @@ OutputErrorCalibration CalibrateOutputError(
   if (!held_out && options.trace_bins == 0) return result;
   const LoopWindows windows(robot, controller, options.window_s,
                             held_out ? validation : training);
-  std::vector<LoopRun> runs = {windows.Simulate(result.values)};
-  if (held_out) result.positions.validation = windows.ResidualRms(runs[0]);
+  const std::vector<LoopRun> runs = {
+      windows.Simulate(FilesValues(robot, controller, options)),
+      windows.Simulate(result.values)};
+  if (held_out) {
+    result.positions.nominal_validation = windows.ResidualRms(runs[0]);
+    result.positions.validation = windows.ResidualRms(runs[1]);
+  }
   if (options.trace_bins == 0) return result;
-  runs.insert(runs.begin(),
-              windows.Simulate(FilesValues(robot, controller, options)));
   result.traces = TracePositions(windows, runs, options.trace_bins);
   return result;
 }

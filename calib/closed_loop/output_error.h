@@ -38,6 +38,7 @@ struct PositionFigures {
   Eigen::VectorXd nominal;  // of the robot file
   Eigen::VectorXd calibrated;
   Eigen::VectorXd validation;  // of held-out logs; empty: there are none
+  Eigen::VectorXd nominal_validation;  // the same of the robot file
 };
 
 struct OutputErrorCalibration {

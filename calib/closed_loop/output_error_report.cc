@@ -1,5 +1,6 @@
 #include "calib/closed_loop/output_error_report.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/linear/verdict.h"
@@ -55,6 +56,8 @@ json JointsJson(const Robot& robot, const OutputErrorCalibration& result) {
     if (positions.validation.size() > 0) {
       entry["validation_position_residual_rms"] =
           JsonNumber(positions.validation[j]);
+      entry["nominal_validation_position_residual_rms"] =
+          JsonNumber(positions.nominal_validation[j]);
     }
     joints.push_back(entry);
   }
@@ -80,6 +83,34 @@ std::string NoiseText(const OutputErrorCalibration& result) {
                "further off than its deviation says\n";
 }
 
+// That an estimate follows held-out commands worse than the robot file does, by
+// more than all that the fit left, all joints together and each in units of its
+// encoder's noise: it is no better model of the arm, whatever it made of the
+// logs it was fitted to. (Of p parameters fitted to n equations with errors of
+// variance s^2, the mean square on other data is larger by p s^2 / n, which is
+// less than s^2, even where the file is the truth.) The joint that lost most is
+// named.
+void AddIfWorseThanFile(const Robot& robot, const PositionFigures& positions,
+                        std::vector<std::string>* sentences) {
+  if (positions.validation.size() == 0) return;
+  const auto squares = [&](const Eigen::VectorXd& rms) -> Eigen::ArrayXd {
+    return rms.cwiseQuotient(positions.noise).array().square();
+  };
+  const Eigen::ArrayXd worse =
+      squares(positions.validation) - squares(positions.nominal_validation);
+  if (!(worse.sum() > squares(positions.calibrated).sum())) return;
+  Eigen::Index j;
+  worse.maxCoeff(&j);
+  const Joint& joint = robot.links[j].joint;
+  sentences->push_back(
+      "the held-out commands are followed worse than by the robot file (" +
+      joint.name +
+      Format(": %.3g instead of %.3g %s rms", positions.validation[j],
+             positions.nominal_validation[j], PositionUnit(joint.type)) +
+      "): the controller's gains and limits, which count as exact where no "
+      "trust is given, may not be the drive's, or the motion tells too little");
+}
+
 }  // namespace
 
 std::vector<std::string> Shortcomings(const OutputErrorCalibration& result) {
@@ -89,10 +120,12 @@ std::vector<std::string> Shortcomings(const OutputErrorCalibration& result) {
     sentences.push_back("the estimate did not come to rest in " +
                         std::to_string(result.arm.iterations) + " iterations");
   }
-  for (const PhysicalParameter& p : result.arm.parameters) {
-    if (p.identifiable) return sentences;
+  AddIfWorseThanFile(result.arm.robot, result.positions, &sentences);
+  const auto& parameters = result.arm.parameters;
+  if (std::none_of(parameters.begin(), parameters.end(),
+                   [](const auto& p) { return p.identifiable; })) {
+    sentences.push_back("no parameter shows in this motion");
   }
-  sentences.push_back("no parameter shows in this motion");
   return sentences;
 }
 

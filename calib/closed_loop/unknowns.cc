@@ -24,7 +24,8 @@ const DriveParameter& ParameterOf(double DriveLaw::*gain) {
 }  // namespace
 
 // A prior of 0 holds a value. The width of Coulomb friction stays above a tenth
-// of its start, for which the simulation's substeps are chosen.
+// of its start, for which the simulation's substeps are chosen. No command is
+// followed before it is given: its delay is not negative.
 LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
                            const LoopTrust& trust,
                            const std::vector<JointTerm>& joint_terms,
@@ -59,7 +60,7 @@ LoopUnknowns::LoopUnknowns(const LoopValues& nominal, DriveKind kind,
         has_coulomb ? trust.width * width : 0, .1 * width);
   }
   AddGains(kind, trust.gains);
-  Add("drive.delay", "s", trust.delay, kAny);
+  Add("drive.delay", "s", trust.delay, 0);
   nominal_ = Stack(nominal);
 }
 

@@ -276,10 +276,10 @@ GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
 // either, nor what shrinks the gap little. Whether there was anything to leave
 // out.
 bool Diagnoser::ClaimNoMore(GapFindings* findings) {
-  const size_t fitted = fit_->refined().effects.size();
+  bool is_another = false;
   do {
-    FitClaimed(findings, &*fit_);
-    if (fit_->refined().effects.size() < fitted) {
+    if (FitClaimed(findings, &*fit_)) {
+      is_another = true;
       held_out_->Follow();
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
@@ -287,7 +287,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   } while (GiveUpWorst(result_.torque, result_.has_reference, findings) ||
            GiveUpWhatDoesNotHelp(result_.torque, findings));
   LowerWhatDoesNotHelp(result_.torque, &findings->effects);
-  if (fit_->refined().effects.size() == fitted) return false;
+  if (!is_another) return false;
   if (result_.torque.joints.rows() > 0) {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       result_.joints[j].after_rms =

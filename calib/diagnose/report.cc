@@ -71,7 +71,11 @@ std::string Others(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   std::string text;
   for (const PlacedEffect& other : found.equivalent) {
     if (other.probability < kWorthSaying) continue;
-    text += Format("         or %.0f %% ", 100 * other.probability) +
+    const bool is_form_of_it =
+        other.joint == found.joint && HasMean(*other.effect, *found.effect);
+    text += Format(is_form_of_it ? "         of these %.0f %% as "
+                                 : "         or %.0f %% ",
+                   100 * other.probability) +
             NameOf(*other.effect, other.joint, diagnosis) + "\n";
   }
   if (!found.separate_by.empty()) {

@@ -1,21 +1,17 @@
 #include "calib/diagnose/since_calibration.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
-#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/reference_fit.h"
 #include "model/signals/low_pass.h"
 
 namespace armcal {
 namespace {
-
-constexpr double kByChance = 9;  // three deviations, squared
 
 // The calibrated robot's own logs with its numbers fitted to them anew, as far
 // from the calibrated ones as they like, and with nothing that models lack as a
@@ -39,14 +35,10 @@ class OwnLogs {
     FitWithNoise(data_.get());
   }
 
-  // Whether they have an effect at this size, but for what a law may have wrong
-  // in its form and for three deviations of chance.
+  // Whether they have an effect at this size.
   bool Have(const GapCandidate& effect) {
-    const ShareOfEffect own =
-        ShareIn(baseline_, scale_, effect, baseline_.size(), data_.get());
-    const double missing = std::pow(1 - own.share, 2) * own.delta_chi2;
-    return own.odds() > 0 &&
-           missing < std::max(kByChance, Limits().form_error * own.delta_chi2);
+    return ShareIn(baseline_, scale_, effect, baseline_.size(), data_.get())
+               .odds() > 0;
   }
 
  private:

@@ -1,9 +1,12 @@
 #include "calib/diagnose/candidates/effect_odds.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "calib/diagnose/candidates/effect_torques.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
@@ -29,6 +32,17 @@ std::vector<JointRows> LateFriction(const GapBaseline& baseline,
     late.push_back(WhitenEach(rows, thin));
   }
   return late;
+}
+
+bool ShareOfEffect::IsOfThisSize() const {
+  constexpr double kByChance = 9;  // three deviations, squared
+  const double missing = std::pow(1 - share, 2) * delta_chi2;
+  return missing < std::max(kByChance, Limits().form_error * delta_chi2);
+}
+
+double ShareOfEffect::odds() const {
+  const double odds = (2 * share - 1) * delta_chi2;
+  return IsOfThisSize() ? odds : std::min(0., odds);
 }
 
 // With c the effect's torque and r what is left of the logs, both whitened and

@@ -18,9 +18,16 @@ struct ShareOfEffect {
   double share = 0;       // 1: all of it
   double delta_chi2 = 0;  // by which chi squared falls with the effect at size
 
+  // Whether what the logs have is of this size, but for what a law may have
+  // wrong in its form and for three deviations of chance. What is many times
+  // larger is not the effect: most of that is absorbed, as a delay that all
+  // logs may share is, and what is left of it, a hundredth of its square, fits
+  // the form of something else.
+  bool IsOfThisSize() const;
   // 2 log of the odds that they have the effect at this size, against that
-  // they have none of it: by how much it lowers chi squared.
-  double odds() const { return (2 * share - 1) * delta_chi2; }
+  // they have none of it: by how much it lowers chi squared. At most 0 where
+  // what they have is of another size.
+  double odds() const;
 };
 
 // Of an effect at its size in logs of which the baseline's first `columns` are

@@ -12,6 +12,7 @@
 #include "calib/diagnose/judge/description.h"
 #include "calib/diagnose/judge/dissipation.h"
 #include "calib/diagnose/judge/joint_agreement.h"
+#include "calib/diagnose/judge/shared_mean.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -63,6 +64,12 @@ double GapWhere(const GapFigures& torque, int joint) {
 // Whether b is what a file has a number for and a's law has a mean of.
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
   return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
+}
+
+// A term of which these data tell no joint's value beside the model's others:
+// it is not said to be lacking.
+bool IsUntoldTerm(const FoundEffect& found) {
+  return found.missing_term && found.estimates.empty();
 }
 
 class Findings {
@@ -162,7 +169,7 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
     found.probability = 1;
     found.score = found.delta_chi2 = term.delta_chi2;
     DescribeMissingTerm(fit_, covariance, &found);
-    result_.effects.push_back(found);
+    if (!IsUntoldTerm(found)) result_.effects.push_back(found);
   }
 }
 
@@ -194,6 +201,12 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
                             });
   result_.unnamed.assign(unneeded, result_.effects.end());
   result_.effects.erase(unneeded, result_.effects.end());
+  for (FoundEffect& found : result_.effects) {
+    // A law that is likely by itself is not told as its mean.
+    const FoundEffect shared = AsSharedMean(found);
+    const bool is_itself = shared.effect == found.effect;
+    if (IsClaimed(shared) && (is_itself || !IsClaimed(found))) found = shared;
+  }
   const auto unclaimed = std::stable_partition(
       result_.effects.begin(), result_.effects.end(), IsClaimed);
   result_.without_name = unclaimed == result_.effects.begin() &&
@@ -284,12 +297,13 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 // of the fit without them: estimates, covariances and, later, the figures. What
 // they explained may go to the others, which is why these are described anew,
 // and what has changed together with them.
-void FitClaimed(GapFindings* findings, GapFit* fit) {
+bool FitClaimed(GapFindings* findings, GapFit* fit) {
   std::vector<int> kept;
   for (const FoundEffect& found : findings->effects) {
     kept.insert(kept.end(), found.fitted.begin(), found.fitted.end());
   }
-  if (kept.size() == fit->refined().effects.size()) return;
+  const bool is_another = PutMeansInPlace(findings->effects, fit);
+  if (kept.size() == fit->refined().effects.size() && !is_another) return false;
   std::sort(kept.begin(), kept.end());
   fit->KeepOnly(kept);
   std::vector<FoundEffect>& effects = findings->effects;
@@ -318,6 +332,9 @@ void FitClaimed(GapFindings* findings, GapFit* fit) {
                      CovarianceOf(fit->refined(), k), &found);
     }
   }
+  effects.erase(std::remove_if(effects.begin(), effects.end(), IsUntoldTerm),
+                effects.end());
+  return true;
 }
 
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,

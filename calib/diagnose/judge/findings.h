@@ -45,7 +45,8 @@ GapFindings ListFindings(const Robot& robot, const GapFit& fit,
 
 // Keeps the claimed effects alone in the fit, and tells them as they are then;
 // what they remove is told by SetClaimedShares, once the figures are known.
-void FitClaimed(GapFindings* findings, GapFit* fit);
+// Whether the fit is another one.
+bool FitClaimed(GapFindings* findings, GapFit* fit);
 void SetClaimedShares(const GapFit& fit, const HeldOut& held_out,
                       const GapFigures& torque,
                       std::vector<FoundEffect>* effects);

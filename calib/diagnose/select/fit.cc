@@ -355,6 +355,11 @@ void GapFit::FitModels() {
   }
 }
 
+void GapFit::Exchange(int k, int candidate) {
+  selection_.chosen[k] = candidate;
+  refined_.effects[k] = pool_.Fitted(selection_.chosen)[k];
+}
+
 // The fit with these effects alone, as a report shows it: candidates, rivals
 // and baseline are of the model that is claimed and of no other. Nothing is
 // chosen anew, which could bring another effect back in.

@@ -37,6 +37,8 @@ class GapFit {
   // Chooses effects and refines them; events are taken out of the data one by
   // one first, since nothing else can be told while they last.
   void Choose();
+  // Puts a candidate in the place of the k-th effect, to be fitted by KeepOnly.
+  void Exchange(int k, int candidate);
   // Of the effects that were chosen, those with these numbers alone, fitted
   // again: what is not claimed is no part of what is shown.
   void KeepOnly(const std::vector<int>& kept);

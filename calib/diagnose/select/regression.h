@@ -75,7 +75,8 @@ class GapRegression {
   // there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
   // 2 log of the odds that the reference has the effect as well, at this size,
-  // against that it has none of it; 0 where there is no reference.
+  // against that it has none of it; at most 0 where what it shows is of another
+  // size, and 0 where there is no reference.
   double OddsInReference(const GapCandidate& effect) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.

@@ -198,4 +198,51 @@ TEST(OutputErrorTest, TellsJitterFromInstability) {
   EXPECT_NE(shaken.find("near instability"), std::string::npos);
 }
 
+// A guess of the gains that counts as exact is made up for by friction and
+// delay, which other commands show: by the sum over joints in units of their
+// noise, the second one's being small beside the first one's.
+TEST(OutputErrorTest, IsNoBetterModelIfTheFileFollowsHeldOutCommands) {
+  OutputErrorCalibration result;
+  result.arm.robot = CommandedTruth(2);
+  result.arm.solved = true;
+  result.arm.reason = "CONVERGENCE";
+  result.arm.parameters.resize(1);
+  result.arm.parameters[0].identifiable = true;
+  result.positions.noise = Eigen::Vector2d(1e-4, 1e-3);
+  result.positions.calibrated = Eigen::Vector2d(.01, .01);
+  result.positions.nominal_validation = Eigen::Vector2d(.02, .02);
+  result.positions.validation = Eigen::Vector2d(.01, .04);
+  EXPECT_TRUE(Shortcomings(result).empty());
+  // By chance, as of a file that is the truth.
+  result.positions.validation = Eigen::Vector2d(.0201, .02);
+  EXPECT_TRUE(Shortcomings(result).empty());
+  result.positions.validation = Eigen::Vector2d(.03, .01);
+  ASSERT_EQ(Shortcomings(result).size(), 1u);
+  EXPECT_NE(Shortcomings(result)[0].find("joint1: 0.03 instead of 0.02 rad"),
+            std::string::npos)
+      << Shortcomings(result)[0];
+  result.positions.validation.resize(0);
+  EXPECT_TRUE(Shortcomings(result).empty());
+}
+
+// Commands that are stamped 10 ms late seem to be followed before they are
+// given.
+TEST(OutputErrorTest, NoCommandIsFollowedBeforeItIsGiven) {
+  const Robot truth = CommandedTruth(1);
+  ControllerOptions controller = CommandedController(truth);
+  CommandedLog log = RecordCommands(truth, controller, 6, {kNoise, kNoise});
+  const double step = log.log.t[1] - log.log.t[0];
+  const auto late = static_cast<Eigen::Index>(std::lround(.01 / step));
+  const Eigen::Index rows = log.log.qref.rows();
+  const Eigen::MatrixXd given = log.log.qref.topRows(rows - late);
+  log.log.qref.bottomRows(rows - late) = given;
+  const OutputErrorCalibration result =
+      CalibrateOutputError(FileOf(truth), controller, {}, {log}, {});
+  for (const PhysicalParameter& p : result.arm.parameters) {
+    if (p.name != "drive.delay") continue;
+    EXPECT_TRUE(p.at_bound);
+    EXPECT_GE(p.value, 0);
+  }
+}
+
 }  // namespace armcal::output_error_test

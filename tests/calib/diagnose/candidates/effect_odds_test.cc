@@ -72,6 +72,14 @@ TEST_F(ShareInTest, IsHowMuchOfAnEffectLogsHave) {
   EXPECT_LT(Share("spring", 1, p, Spring(.4)).odds(), 0);
 }
 
+TEST_F(ShareInTest, WhatIsFarLargerIsSomethingElse) {
+  const Eigen::Vector2d p(kStiffness, 0);
+  EXPECT_TRUE(Share("spring", 1, p, Spring(1.3)).IsOfThisSize());
+  const ShareOfEffect larger = Share("spring", 1, p, Spring(3));
+  EXPECT_FALSE(larger.IsOfThisSize());
+  EXPECT_EQ(larger.odds(), 0);
+}
+
 // Friction that changes sign late is no delay of all torque.
 TEST_F(ShareInTest, AFrictionsOwnTimeIsNoDelay) {
   const VectorXd p = VectorXd::Constant(1, -kDelay);
