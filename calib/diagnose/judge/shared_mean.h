@@ -1,6 +1,7 @@
 #pragma once
 
-#include "calib/diagnose/judge/findings.h"
+#include <vector>
+
 #include "calib/diagnose/judge/found_effect.h"
 #include "calib/diagnose/select/fit.h"
 
