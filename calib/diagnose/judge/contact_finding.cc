@@ -43,10 +43,10 @@ double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
   if (!event.beyond_friction) return ProbabilityOf(evidence);
   const double odds = Limits().odds_of_no_contact;
   if (event.chance_of_logs) return ProbabilityBeyondChance(event.chance, odds);
-  return std::min(
-      std::max(ProbabilityBeyondOneReference(evidence),
-               ProbabilityBeyondChance(chance_among_peaks, odds)),
-      ProbabilityBeyondChance(ChanceByDiscrepancy(fit, event.contact), odds));
+  return std::min(std::max(ProbabilityBeyondOneReference(evidence),
+                           ProbabilityBeyondChance(chance_among_peaks, odds)),
+                  ProbabilityBeyondChance(
+                      ChanceByDiscrepancy(fit, ToldContact(event)), odds));
 }
 
 // Of what is left of moving joints' torques where there is no event, over the
@@ -81,8 +81,9 @@ std::vector<double> PeaksBesideEvents(const GapFit& fit) {
 std::vector<double> SizesOf(const GapFit& fit) {
   std::vector<double> sizes;
   for (const GapEvent& event : fit.events()) {
-    const int j = event.contact.joint;
-    sizes.push_back(std::abs(event.contact.torque[j]) /
+    const Contact& contact = ToldContact(event);
+    const int j = contact.joint;
+    sizes.push_back(std::abs(contact.torque[j]) /
                     fit.noise().joints[j].stddev());
   }
   const std::vector<double> others = PeaksBesideEvents(fit);

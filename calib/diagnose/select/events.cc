@@ -25,6 +25,10 @@ GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
   return event;
 }
 
+const Contact& ToldContact(const GapEvent& event) {
+  return event.as_pulse ? *event.as_pulse : event.contact;
+}
+
 void SortByTime(std::vector<GapEvent>* events) {
   std::sort(events->begin(), events->end(),
             [](const GapEvent& a, const GapEvent& b) {

@@ -33,12 +33,19 @@ struct GapEvent {
   bool at_rest = false;
   // A pulse of torque on joints that move (pulse_events.h).
   bool pulse = false;
+  // Of a touch that stands out as a pulse does (ConfirmTouches): that pulse,
+  // which its chance is of. The touch itself is described where its excess over
+  // friction peaks, where a push on joints that slide may be small.
+  std::optional<Contact> as_pulse;
   double delta_chi2 = 0;
   double score = 0;
   // The delta chi^2 that a torque of the same course on one joint alone would
   // bring, over `delta_chi2`: a touch is felt by several joints.
   double one_joint = 0;
 };
+
+// What the chance of an event is of: the pulse of one that was confirmed by it.
+const Contact& ToldContact(const GapEvent& event);
 
 GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
                              const Contact& contact);

@@ -260,22 +260,22 @@ class PulseSearch {
       }
     }
   }
-  // Of the largest within a window.
-  double ChanceOf(const Contact& contact) const {
-    return Chance(LargestIn(contact));
+  // The largest within a window, and its chance: 1 where none is seen.
+  GapEvent LargestIn(const Contact& contact) const {
+    const VectorXd all = scan_.Largest();
+    double largest = 0;
+    int sample = -1, joint;
+    for (const int k : SamplesOf(rows_, contact)) {
+      if (all[k] > largest) largest = all[k], sample = k;
+    }
+    if (sample < 0) return {};
+    scan_.deviations().row(sample).cwiseAbs().maxCoeff(&joint);
+    GapEvent event = EventOf(rows_, model_.robot(), scan_, sample, joint);
+    event.chance = Chance(largest);
+    return event;
   }
 
  private:
-  // In deviations.
-  double LargestIn(const Contact& contact) const {
-    const VectorXd all = scan_.Largest();
-    double largest = 0;
-    for (const int k : SamplesOf(rows_, contact)) {
-      largest = std::max(largest, all[k]);
-    }
-    return largest;
-  }
-
   const GapRows& rows_;
   JointRows torque_;
   ModelOfPulses model_;
@@ -327,7 +327,7 @@ std::vector<GapEvent> WithoutExplainedPulses(
   kept.clear();
   for (const GapEvent& event : events) {
     if (event.pulse &&
-        !(search.ChanceOf(event.contact) < Limits().false_contacts)) {
+        !(search.LargestIn(event.contact).chance < Limits().false_contacts)) {
       continue;
     }
     kept.push_back(event);
@@ -346,10 +346,11 @@ void ConfirmTouches(const GapRegression& regression,
   const PulseSearch search(unmasked, effects);
   for (GapEvent& event : *events) {
     if (event.beyond_friction) continue;
-    const double chance = search.ChanceOf(event.contact);
-    if (!(chance < Limits().false_contacts)) continue;
+    const GapEvent pulse = search.LargestIn(event.contact);
+    if (!(pulse.chance < Limits().false_contacts)) continue;
     event.beyond_friction = true;
-    event.chance = chance;
+    event.chance = pulse.chance;
+    event.as_pulse = pulse.contact;
     event.chance_of_logs = regression.has_several_references();
   }
 }
