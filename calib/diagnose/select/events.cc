@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "calib/diagnose/data/thresholds.h"
 
@@ -36,10 +37,36 @@ void SortByTime(std::vector<GapEvent>* events) {
             });
 }
 
+std::vector<GapEvent> JoinedPulses(std::vector<GapEvent> events) {
+  SortByTime(&events);
+  std::vector<GapEvent> joined;
+  for (const GapEvent& event : events) {
+    const auto before =
+        std::find_if(joined.begin(), joined.end(), [&](const GapEvent& other) {
+          return event.pulse && other.pulse &&
+                 other.contact.log == event.contact.log &&
+                 other.contact.joint == event.contact.joint &&
+                 event.contact.window.begin <= other.contact.window.end;
+        });
+    if (before == joined.end()) {
+      joined.push_back(event);
+      continue;
+    }
+    const GapEvent other = *before;
+    if (event.contact.deviations > other.contact.deviations) *before = event;
+    before->contact.window = {
+        other.contact.window.begin,
+        std::max(other.contact.window.end, event.contact.window.end)};
+    before->delta_chi2 = other.delta_chi2 + event.delta_chi2;
+    before->score = other.score + event.score;
+  }
+  return joined;
+}
+
 void DescribeAgain(const Robot& robot, const GapRows& rows,
                    const FrictionExcess& alone, const FrictionExcess& given,
                    std::vector<GapEvent>* events) {
-  SortByTime(events);
+  *events = JoinedPulses(std::move(*events));
   for (GapEvent& event : *events) {
     if (event.pulse) continue;
     const Contact before = event.contact;

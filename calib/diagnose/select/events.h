@@ -50,8 +50,13 @@ const Contact& ToldContact(const GapEvent& event);
 GapEvent EventBeyondFriction(const GapRows& rows, const FrictionExcess& excess,
                              const Contact& contact);
 void SortByTime(std::vector<GapEvent>* events);
-// As they are given what was fitted without them, in the order of time: the
-// excess given the baseline alone, and given effects as well.
+// Pulses on one joint whose windows overlap are one push, which lasts longer
+// than the widest pulse that is looked for: one event with the window of all
+// and the sum of their delta chi^2, the rest of it as of the strongest. All
+// events are in the order of time.
+std::vector<GapEvent> JoinedPulses(std::vector<GapEvent> events);
+// As they are given what was fitted without them, pulses joined: the excess
+// given the baseline alone, and given effects as well.
 void DescribeAgain(const Robot& robot, const GapRows& rows,
                    const FrictionExcess& alone, const FrictionExcess& given,
                    std::vector<GapEvent>* events);

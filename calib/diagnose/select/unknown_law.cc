@@ -44,6 +44,24 @@ std::vector<int> DiscrepancyColumns(const GapBaseline& baseline, int joint) {
   return discrepancy;
 }
 
+// A push of any course within its window that is as smooth as the shortest one
+// that is looked for: pulses of that width, a width apart, about the window's
+// centre, and none closer than a width to its ends.
+std::vector<GapEvent> CourseOfAny(const GapEvent& push) {
+  const TimeRange& window = push.contact.window;
+  const double width = Limits().shortest_push;
+  const double reach = Limits().event_reach * width;
+  const double inside = window.end - window.begin - 2 * width;
+  const int count = 1 + std::max(0, static_cast<int>(inside / width + .5));
+  std::vector<GapEvent> course(count, push);
+  for (int k = 0; k < count; ++k) {
+    const double centre =
+        (window.begin + window.end) / 2 + (k - (count - 1) / 2.) * width;
+    course[k].contact.window = {centre - reach, centre + reach};
+  }
+  return course;
+}
+
 // A pulse's course on its joint, whitened.
 JointRows ColumnOf(const GapRows& rows, const VectorXd& usual_torque,
                    const GapEvent& event) {
@@ -51,6 +69,18 @@ JointRows ColumnOf(const GapRows& rows, const VectorXd& usual_torque,
   JointRows column(rows.num_joints());
   column[j] = rows.Whiten(j, usual_torque[j] * CourseOf(rows, event));
   return column;
+}
+
+std::vector<JointRows> ColumnsOfAny(const GapRows& rows,
+                                    const VectorXd& usual_torque,
+                                    const std::vector<GapEvent>& pushes) {
+  std::vector<JointRows> columns;
+  for (const GapEvent& push : pushes) {
+    for (const GapEvent& part : CourseOfAny(push)) {
+      columns.push_back(ColumnOf(rows, usual_torque, part));
+    }
+  }
+  return columns;
 }
 
 // In how many places a pulse could have been: how many of a width's length fit
@@ -91,11 +121,11 @@ double DiscrepancySize(const GapScreen& screen,
 // s times its usual size, and pulses that came and went, a column each. The
 // first acts in all of the log and pays for its freedom by the determinant in
 // the evidence; the second pays for the places it was chosen from, 2 ln(places)
-// each, and both for the choice among sizes and joints. Above 0 the law is
+// each push, and both for the choice among sizes and joints. Above 0 the law is
 // likelier.
 double UnknownLawOdds(const GapScreen& screen,
                       const std::vector<int>& discrepancy, double usual_size,
-                      const std::vector<JointRows>& pulses, double places,
+                      const std::vector<JointRows>& pulses, double log_places,
                       const VectorXd& stddev) {
   const GapScreen with_pulses =
       WithColumns(Sized(screen, discrepancy, usual_size), pulses);
@@ -109,7 +139,7 @@ double UnknownLawOdds(const GapScreen& screen,
     odds = std::max(
         odds, LogEvidence(law, common) - LogEvidence(with_pulses, common));
   }
-  return odds + 2 * static_cast<double>(pulses.size()) * std::log(places) -
+  return odds + 2 * log_places -
          2 * std::log(kSizes.size() * screen.num_joints());
 }
 
@@ -118,6 +148,9 @@ double UnknownLawOdds(const GapScreen& screen,
 // Effects that were chosen, and the pulses of other joints, are in both models,
 // lest what they explain be taken for a law of this one. How large a
 // discrepancy the reference already shows is where the larger ones start from.
+// A push is a pulse of one of two widths, or of any course within its window:
+// a hold of a second that single pulses are fitted to leaves so much that a law
+// would be the likelier one. The law has to be likelier than either.
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events) {
@@ -138,20 +171,31 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
   std::vector<int> found;
   for (const int joint : joints) {
     std::vector<JointRows> lasting, own;
+    std::vector<GapEvent> own_pulses;
     for (const GapCandidate& effect : effects) {
       lasting.push_back(WhitenEach(rows, unmasked.TorqueOf({effect})));
     }
     for (const GapEvent& event : pulses) {
-      (event.contact.joint == joint ? own : lasting)
-          .push_back(ColumnOf(rows, usual_torque, event));
+      const bool is_own = event.contact.joint == joint;
+      if (is_own) own_pulses.push_back(event);
+      (is_own ? own : lasting).push_back(ColumnOf(rows, usual_torque, event));
     }
     const std::vector<int> discrepancy =
         DiscrepancyColumns(unmasked.baseline(), joint);
     const double usual_size =
         DiscrepancySize(before, discrepancy, reference.rows().evidence());
-    const double odds =
-        UnknownLawOdds(WithColumns(unmasked.screen(), lasting), discrepancy,
-                       usual_size, own, PlacesOfPulses(rows), rows.evidence());
+    const GapScreen given = WithColumns(unmasked.screen(), lasting);
+    const auto odds_against = [&](const std::vector<JointRows>& columns,
+                                  size_t count) {
+      return UnknownLawOdds(
+          given, discrepancy, usual_size, columns,
+          static_cast<double>(count) * std::log(PlacesOfPulses(rows)),
+          rows.evidence());
+    };
+    const std::vector<GapEvent> pushes = JoinedPulses(own_pulses);
+    const double odds = std::min(
+        odds_against(own, own.size()),
+        odds_against(ColumnsOfAny(rows, usual_torque, pushes), pushes.size()));
     if (odds > 0) found.push_back(joint);
   }
   return found;

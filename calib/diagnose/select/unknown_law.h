@@ -26,14 +26,15 @@ double DiscrepancySize(const GapScreen& screen,
 //   each)
 // under the variance that either leaves and the lesser correlation of both.
 // A law shows in all of a log, a pulse nowhere else; and a pulse could have
-// been in each of `places`, whose number it has to outweigh.
+// been in many places, whose number it has to outweigh.
 //
 // `screen`: factored, with the columns of effects that last. `pulses`: whitened
 // as its rows, of a torque that is usual on their joint, which is the standard
-// deviation of what a push may be.
+// deviation of what a push may be. `log_places`: ln of the number of places,
+// summed over pushes, of which each has one column or several.
 double UnknownLawOdds(const GapScreen& screen,
                       const std::vector<int>& discrepancy, double usual_size,
-                      const std::vector<JointRows>& pulses, double places,
+                      const std::vector<JointRows>& pulses, double log_places,
                       const Eigen::VectorXd& stddev);
 
 // The joints of the pulses among these events of which a law is the likelier

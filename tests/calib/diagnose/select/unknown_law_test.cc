@@ -52,8 +52,8 @@ class UnknownLawTest : public testing::Test {
     const GapScreen screen = Screen(target);
     std::vector<JointRows> pulses;
     for (const int at : times) pulses.push_back({10 * Pulse(at)});
-    return UnknownLawOdds(screen, discrepancy_, usual_size, pulses, kPlaces,
-                          VectorXd::Ones(1));
+    return UnknownLawOdds(screen, discrepancy_, usual_size, pulses,
+                          times.size() * std::log(kPlaces), VectorXd::Ones(1));
   }
 
   MatrixXd shapes_;
@@ -71,6 +71,18 @@ TEST_F(UnknownLawTest, EvidenceTellsTheDiscrepancysSize) {
 TEST_F(UnknownLawTest, PulsesAreNoLaw) {
   const VectorXd pushed = 10 * Pulse(500) - 8 * Pulse(900) + Law(1) + Noise();
   EXPECT_LT(Odds(pushed, 1, {500, 900}), -50);
+}
+
+// A hold is much longer than a pulse, which leaves its flanks. Of any course
+// within its window it is as little of a law as a pulse is.
+TEST_F(UnknownLawTest, AHoldIsNoLawWhereItsCourseIsFree) {
+  VectorXd hold = VectorXd::Zero(kRows);
+  hold.segment(500, 120).setConstant(10);
+  std::vector<int> times;
+  for (int at = 500; at <= 620; at += 15) times.push_back(at);
+  const VectorXd pushed = hold + Law(1) + Noise();
+  EXPECT_GT(Odds(pushed, 1, {560}), 0);
+  EXPECT_LT(Odds(pushed, 1, times), -50);
 }
 
 // Where waves are highest, pulses explain much of them, not the rest.
@@ -95,9 +107,9 @@ TEST_F(UnknownLawTest, APulseHasToOutweighItsPlaces) {
   const GapScreen screen = Screen(weak);
   const VectorXd noise = VectorXd::Ones(1);
   const double few =
-      UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}}, 1, noise);
-  const double many =
-      UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}}, kPlaces, noise);
+      UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}}, 0, noise);
+  const double many = UnknownLawOdds(screen, discrepancy_, 1, {{Pulse(500)}},
+                                     std::log(kPlaces), noise);
   EXPECT_NEAR(many - few, 2 * std::log(kPlaces), 1e-9);
 }
 
