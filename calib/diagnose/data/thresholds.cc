@@ -275,6 +275,10 @@ const std::vector<ThresholdInfo> kAll = {
     {"most_of_time", &T::most_of_time, "log",
      "Windows that stand out in more of it were no touch", Kind::kDefinition,
      "what a touch is"},
+    {"same_state", &T::same_state, "usual motion",
+     "Positions and velocities that are no farther apart, rms over joints, are "
+     "the same",
+     Kind::kDefinition, "what coming back is"},
     {"visible_share", &T::visible_share, "column's square",
      "An effect of which the model leaves less cannot be told", Kind::kTuned,
      "a prototype's simulated arm of six joints"},

@@ -95,6 +95,7 @@ struct Thresholds {
   double absorbed = .5;
   double louder_in_motion = 3;
   double most_of_time = 1. / 3;
+  double same_state = .1;
   double visible_share = 1e-4;
   double material = .3;
   double far = 2;

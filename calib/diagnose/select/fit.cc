@@ -13,6 +13,7 @@
 #include "calib/diagnose/select/pulse_events.h"
 #include "calib/diagnose/select/redundant.h"
 #include "calib/diagnose/select/reference.h"
+#include "calib/diagnose/select/returning_events.h"
 #include "calib/diagnose/select/unknown_law.h"
 #include "model/effects/effects.h"
 
@@ -274,24 +275,18 @@ void GapFit::SelectWithEvents() {
     }
   }
   ForgetTouchesOfWhatLasts();
-  ForgetPulsesOfALaw();
+  ForgetEventsOfALaw();
   ConfirmTouches(regression_, pool_.Fitted(selection_.chosen), &events_);
 }
 
-// Selects again without the pulses of joints that are likelier to lack a law.
-void GapFit::ForgetPulsesOfALaw() {
-  const auto is_pulse = [](const GapEvent& event) { return event.pulse; };
-  if (std::none_of(events_.begin(), events_.end(), is_pulse)) return;
-  const std::vector<int> joints = JointsWithUnknownLaw(
-      regression_, pool_.Fitted(selection_.chosen), events_);
-  if (joints.empty()) return;
-  std::vector<GapEvent> kept;
-  for (const GapEvent& event : events_) {
-    const bool of_law =
-        std::count(joints.begin(), joints.end(), event.contact.joint) > 0;
-    if (!event.pulse || !of_law) kept.push_back(event);
+// Selects again without what comes back with the motion, and without the pulses
+// of joints that are likelier to lack a law.
+void GapFit::ForgetEventsOfALaw() {
+  for (const auto without : {WithoutReturning, WithoutPulsesOfUnknownLaws}) {
+    const std::vector<GapEvent> kept =
+        without(regression_, pool_.Fitted(selection_.chosen), events_);
+    if (kept.size() < events_.size()) SelectGiven(kept);
   }
-  SelectGiven(kept);
 }
 
 // The events without pulses that stood out given what was chosen when they were

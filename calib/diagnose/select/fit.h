@@ -110,7 +110,7 @@ class GapFit {
   void TakeOutEvent(size_t k);
   double Cost(const Selection& selection) const;
   void ForgetTouchesOfWhatLasts();
-  void ForgetPulsesOfALaw();
+  void ForgetEventsOfALaw();
   void SelectGiven(const std::vector<GapEvent>& events);
   void TakeAsKnown(const std::vector<GapEvent>& events);
   void SelectWithEvents();

@@ -201,4 +201,20 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
   return found;
 }
 
+std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events) {
+  const auto is_pulse = [](const GapEvent& event) { return event.pulse; };
+  if (std::none_of(events.begin(), events.end(), is_pulse)) return events;
+  const std::vector<int> joints =
+      JointsWithUnknownLaw(regression, effects, events);
+  std::vector<GapEvent> kept;
+  for (const GapEvent& event : events) {
+    const bool of_law =
+        std::count(joints.begin(), joints.end(), event.contact.joint) > 0;
+    if (!event.pulse || !of_law) kept.push_back(event);
+  }
+  return kept;
+}
+
 }  // namespace armcal

@@ -43,5 +43,9 @@ double UnknownLawOdds(const GapScreen& screen,
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events);
+// The events without the pulses on these joints.
+std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events);
 
 }  // namespace armcal

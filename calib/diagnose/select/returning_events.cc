@@ -1,0 +1,133 @@
+#include "calib/diagnose/select/returning_events.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <iterator>
+
+#include "calib/diagnose/data/thresholds.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Positions and velocities of thinned samples, each joint's over how far it is
+// from its mean as a rule (rms); 0 of joints that rest.
+MatrixXd StatesOf(const GapRows& rows) {
+  std::vector<MatrixXd> fine;
+  for (const GapSegment& segment : rows.segments()) {
+    MatrixXd& state =
+        fine.emplace_back(segment.motion.q.rows(), 2 * segment.motion.q.cols());
+    state << segment.motion.q, segment.motion.qd;
+  }
+  MatrixXd states = rows.PickAll(fine);
+  states.rowwise() -= states.colwise().mean();
+  for (Index c = 0; c < states.cols(); ++c) {
+    const double rms = std::sqrt(states.col(c).squaredNorm() / states.rows());
+    states.col(c) *= rms > 0 ? 1 / rms : 0;
+  }
+  return states;
+}
+
+// Root mean square over joints, positions and velocities.
+double Distance(const MatrixXd& states, int a, int b) {
+  return (states.row(a) - states.row(b)).norm() /
+         std::sqrt(static_cast<double>(states.cols()));
+}
+
+// The thinned sample of a log next to a time; -1: there is none within a step.
+int SampleAt(const GapRows& rows, int log, double time) {
+  for (int s = 0; s < static_cast<int>(rows.segments().size()); ++s) {
+    if (rows.segments()[s].log != log) continue;
+    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
+      if (std::abs(rows.thin_time(s, k) - time) <= rows.step(s)) return k;
+    }
+  }
+  return -1;
+}
+
+// The samples nearest to a state, one for each time that the arm comes back to
+// it: of each uninterrupted stretch of near ones outside the event's window.
+std::vector<int> ReturnsTo(const GapRows& rows, int centre,
+                           const GapEvent& event) {
+  const MatrixXd states = StatesOf(rows);
+  std::vector<int> returns;
+  for (int s = 0; s < static_cast<int>(rows.segments().size()); ++s) {
+    const bool is_own = rows.segments()[s].log == event.contact.log;
+    bool was_near = false;
+    for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
+      const double distance = Distance(states, k, centre);
+      const bool in_window =
+          is_own && event.contact.window.Contains(rows.thin_time(s, k));
+      const bool is_near = !in_window && distance <= Limits().same_state;
+      if (is_near && !was_near) {
+        returns.push_back(k);
+      } else if (is_near &&
+                 distance < Distance(states, returns.back(), centre)) {
+        returns.back() = k;
+      }
+      was_near = is_near;
+    }
+  }
+  return returns;
+}
+
+// Mean of what is left about a sample, within its segment.
+double MeanAbout(const GapRows& rows, const VectorXd& left, int sample,
+                 int reach) {
+  const int s = rows.SegmentOf(sample);
+  const int begin = std::max(rows.thin_begin(s), sample - reach);
+  const int end = std::min(rows.thin_begin(s + 1), sample + reach + 1);
+  return left.segment(begin, end - begin).mean();
+}
+
+}  // namespace
+
+double ShareThatReturns(const GapRows& rows, const MatrixXd& left,
+                        const GapEvent& event) {
+  const Contact& contact = ToldContact(event);
+  const int centre = SampleAt(rows, contact.log, contact.time);
+  if (centre < 0) return 0;
+  const double core = (contact.window.end - contact.window.begin) / 4;
+  const int reach = static_cast<int>(core / rows.step(rows.SegmentOf(centre)));
+  const VectorXd torque = left.col(contact.joint);
+  const double own = MeanAbout(rows, torque, centre, reach);
+  double sum = 0;
+  int count = 0;
+  for (const int sample : ReturnsTo(rows, centre, event)) {
+    const double there = MeanAbout(rows, torque, sample, reach);
+    if (!std::isfinite(there)) continue;
+    sum += there;
+    ++count;
+  }
+  return count > 0 && own != 0 && std::isfinite(own) ? sum / (count * own) : 0;
+}
+
+std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
+                                       const std::vector<GapCandidate>& effects,
+                                       const std::vector<GapEvent>& events) {
+  if (events.empty()) return events;
+  const JointRows torque = regression.TorqueOf(effects);
+  const MatrixXd left =
+      regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
+  std::vector<GapEvent> kept;
+  std::copy_if(
+      events.begin(), events.end(), std::back_inserter(kept),
+      [&](const GapEvent& event) {
+        if (getenv("PROTO"))
+          fprintf(stderr, "RETURN %.2f j%d pulse %d rest %d share %.3f\n",
+                  event.contact.time, event.contact.joint + 1, event.pulse,
+                  event.at_rest,
+                  ShareThatReturns(regression.rows(), left, event));
+        constexpr double kHalf = .5;
+        return event.at_rest ||
+               ShareThatReturns(regression.rows(), left, event) < kHalf;
+      });
+  return kept;
+}
+
+}  // namespace armcal

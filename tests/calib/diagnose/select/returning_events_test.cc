@@ -1,0 +1,75 @@
+#include "calib/diagnose/select/returning_events.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/fixtures/gap_segment.h"
+
+namespace armcal::returning_events_test {
+
+using Eigen::MatrixXd;
+
+constexpr double kStep = .01, kPeriod = 5, kBandwidth = 6;
+constexpr int kSize = 2000;  // samples: 20 s
+
+// Two joints that repeat a motion of 5 s four times, or drift away from where
+// they were. What is left of the second one's torque are pulses of .6 s.
+class ReturningEventsTest : public testing::Test {
+ protected:
+  explicit ReturningEventsTest(double drift = 0) {
+    Motion motion;
+    motion.dt = kStep;
+    motion.q.resize(kSize, 2);
+    motion.qd.resize(kSize, 2);
+    motion.qdd.setZero(kSize, 2);
+    for (int k = 0; k < kSize; ++k) {
+      const double w = 2 * M_PI / kPeriod, t = k * kStep;
+      motion.q.row(k) << std::sin(w * t) + drift * t, .5 * std::sin(2 * w * t);
+      motion.qd.row(k) << w * std::cos(w * t) + drift, w * std::cos(2 * w * t);
+    }
+    segments_ = {MakeSegment(motion, MatrixXd::Zero(kSize, 2))};
+  }
+  // With pulses of these sizes at these times, of that at 7 s.
+  double Share(const std::vector<std::pair<double, double>>& pulses) const {
+    const GapRows rows(segments_, kBandwidth);
+    MatrixXd left = MatrixXd::Zero(rows.num_thin(), 2);
+    for (int k = 0; k < rows.num_thin(); ++k) {
+      for (const auto& [time, size] : pulses) {
+        const double s = (rows.thin_time(0, k) - time) / .15;
+        left(k, 1) += size * std::exp(-s * s);
+      }
+    }
+    GapEvent event;
+    event.contact.window = {6.7, 7.3};
+    event.contact.time = 7;
+    event.contact.joint = 1;
+    return ShareThatReturns(rows, left, event);
+  }
+
+  std::vector<GapSegment> segments_;
+};
+
+class NeverAgainTest : public ReturningEventsTest {
+ protected:
+  NeverAgainTest() : ReturningEventsTest(.5) {}
+};
+
+TEST_F(ReturningEventsTest, ALawReturnsWithTheMotion) {
+  EXPECT_NEAR(Share({{2, 1}, {7, 1}, {12, 1}, {17, 1}}), 1, .05);
+  EXPECT_NEAR(Share({{2, .4}, {7, 1}, {12, .3}, {17, .2}}), .3, .05);
+}
+
+TEST_F(ReturningEventsTest, ATouchDoesNot) {
+  EXPECT_NEAR(Share({{7, 1}}), 0, .01);
+  // Nor do others, at other times or the other way.
+  EXPECT_NEAR(Share({{7, 1}, {11, 1}, {15.5, 1}}), 0, .05);
+  EXPECT_LT(Share({{2, -1}, {7, 1}}), -.3);
+}
+
+// Pulses as far apart as the periods of a motion that is not repeated.
+TEST_F(NeverAgainTest, WhatCannotReturnIsATouch) {
+  EXPECT_EQ(Share({{2, 1}, {7, 1}, {12, 1}, {17, 1}}), 0);
+}
+
+}  // namespace armcal::returning_events_test
