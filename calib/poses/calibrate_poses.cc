@@ -12,6 +12,7 @@
 #include "calib/poses/misfit.h"
 #include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
+#include "calib/poses/shared_errors.h"
 #include "model/signals/dense_solvers.h"
 
 namespace armcal {
@@ -45,8 +46,8 @@ MatrixXd FreeJacobian(const PoseFit& fit, const std::vector<bool>& free,
   return J(Eigen::all, columns);
 }
 
-// Of columns' unknowns by the rows A alone: covariance and, of each, the share
-// that no row sees.
+// Of columns' unknowns by the rows A alone: an orthonormal basis of what they
+// see is A half; and, of each unknown, the share that no row sees.
 struct Seen {
   explicit Seen(const MatrixXd& A) {
     const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
@@ -55,12 +56,11 @@ struct Seen {
     const VectorXd& s = svd.singularValues();
     const Eigen::Index rank = (s.array() > 1e-9 * s[0]).count();
     const MatrixXd& V = svd.matrixV();
-    const MatrixXd half = scale.cwiseInverse().asDiagonal() * V.leftCols(rank) *
-                          s.head(rank).cwiseInverse().asDiagonal();
-    covariance = half * half.transpose();
+    half = scale.cwiseInverse().asDiagonal() * V.leftCols(rank) *
+           s.head(rank).cwiseInverse().asDiagonal();
     unseen = V.rightCols(V.cols() - rank).rowwise().squaredNorm();
   }
-  MatrixXd covariance;
+  MatrixXd half;
   VectorXd unseen;
 };
 
@@ -86,24 +86,29 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   const std::vector<std::string> units = geometry.Units();
   const VectorXd nominal = geometry.Values();
   VectorXd residuals;
-  const Seen seen(FreeJacobian(fit, free, rows, at, &residuals));
-  const double factor = fit.VarianceFactor(residuals, fit.NumUnknowns(free));
+  const MatrixXd J = FreeJacobian(fit, free, rows, at, &residuals);
+  const Seen seen(J);
+  const MatrixXd covariance =
+      seen.half *
+      ScoreCovariance(fit, rows, residuals, J * seen.half,
+                      fit.NumUnknowns(free)) *
+      seen.half.transpose();
   Eigen::Index c = 0;
   for (int p = 0; p < geometry.size(); ++p) {
     if (!free[p]) continue;
     // The loss of a hopeless fit may be all slope: no variance then.
-    const bool is_seen = seen.unseen[c] < 1e-6 && std::isfinite(factor);
+    const bool is_seen =
+        seen.unseen[c] < 1e-6 && std::isfinite(covariance(c, c));
     result->parameters.push_back(
         {names[p], units[p], nominal[p], at.geometry[p],
-         is_seen ? std::sqrt(factor * seen.covariance(c, c))
+         is_seen ? std::sqrt(covariance(c, c))
                  : std::numeric_limits<double>::infinity(),
          fit.PriorOf(p), is_seen});
     ++c;
   }
   const Eigen::Index others = at.other.size();
   ReportInstrument(fit.measured().instrument, at.other,
-                   factor * seen.covariance.bottomRightCorner(others, others),
-                   result);
+                   covariance.bottomRightCorner(others, others), result);
 }
 
 // What is left of all poses, of the inliers, which it returns, and of these

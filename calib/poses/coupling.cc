@@ -9,6 +9,7 @@
 #include "calib/logs/encoder_noise.h"
 #include "calib/poses/joint_terms_fit.h"
 #include "calib/poses/load_moment.h"
+#include "calib/poses/repeated_poses.h"
 #include "calib/poses/some_poses.h"
 
 namespace armcal {
@@ -83,7 +84,8 @@ class CouplingSearch {
         options_(options),
         sag_(SagTerms(robot, measured)),
         plain_(robot, measured, options, sag_),
-        rows_(measured.size()) {
+        rows_(measured.size()),
+        poses_(CountPoses(RepeatedPoses(measured.q))) {
     std::iota(rows_.begin(), rows_.end(), 0);
   }
 
@@ -99,7 +101,7 @@ class CouplingSearch {
     }
     without.noise = plain_.noise();
     without.deviance =
-        Deviance(plain_.MeanSquares(rows_, without.state), measured_.size());
+        Deviance(plain_.MeanSquares(rows_, without.state), poses_);
     std::vector<Fitted> fitted;
     for (const Relation& relation : Likeliest(without.state)) {
       AddFit(relation, without, &fitted);
@@ -181,8 +183,7 @@ class CouplingSearch {
     fit->set_noise(without.noise);
     if (!fit->SolveWithNoise(rows_, &with.state)) return;
     with.noise = fit->noise();
-    with.deviance =
-        Deviance(fit->MeanSquares(rows_, with.state), measured_.size());
+    with.deviance = Deviance(fit->MeanSquares(rows_, with.state), poses_);
     fitted->push_back(with);
   }
 
@@ -199,10 +200,12 @@ class CouplingSearch {
   // Of a mean square on poses that were left out.
   double HeldOut(JointTermsFit* fit, const Fitted& fitted) const {
     std::vector<double> sums;
+    const std::vector<int> folds =
+        InterleavedFolds(RepeatedPoses(measured_.q), kCouplingFolds);
     for (int fold = 0; fold < kCouplingFolds; ++fold) {
       std::vector<int> kept, left_out;
       for (const int k : rows_) {
-        (k % kCouplingFolds == fold ? left_out : kept).push_back(k);
+        (folds[k] == fold ? left_out : kept).push_back(k);
       }
       if (left_out.empty()) continue;
       JointTermsState state = fitted.state;
@@ -222,7 +225,7 @@ class CouplingSearch {
     if (fitted.empty() || !IsLarge(fitted[0])) return false;
     const double models = static_cast<double>(measured_.q.cols()) *
                           static_cast<double>(measured_.q.cols());
-    const double penalty = std::log(measured_.size()) + 2 * std::log(models);
+    const double penalty = std::log(poses_) + 2 * std::log(models);
     const Fitted& best = fitted[0];
     if (without.deviance - best.deviance - penalty < kVeryStrong) return false;
     if (fitted.size() > 1 && fitted[1].deviance - best.deviance < kVeryStrong) {
@@ -239,6 +242,7 @@ class CouplingSearch {
   std::vector<JointCorrection> sag_;
   JointTermsFit plain_;  // without a relation
   std::vector<int> rows_;
+  int poses_;  // of which several rows may be readings
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
+#include "calib/poses/repeated_poses.h"
 
 namespace armcal {
 namespace {
@@ -87,10 +88,12 @@ Eigen::MatrixXd LeftOutDistances(const PoseFit& fit,
       std::max<size_t>(1, fit.measured().targets.size()));
   Eigen::MatrixXd distances =
       Eigen::MatrixXd::Constant(poses, targets, std::nan(""));
+  const std::vector<int> fold_of =
+      InterleavedFolds(RepeatedPoses(fit.measured().q), folds);
   for (int fold = 0; fold < folds; ++fold) {
     std::vector<int> kept, left_out;
     for (int k = 0; k < poses; ++k) {
-      (k % folds == fold ? left_out : kept).push_back(k);
+      (fold_of[k] == fold ? left_out : kept).push_back(k);
     }
     PoseUnknowns unknowns = start;
     if (!fit.Solve(free, kept, loss, &unknowns)) continue;

@@ -8,10 +8,11 @@
 namespace armcal {
 
 // Distances (m; rad of tilts) of poses that a fit has not seen, a row for each
-// pose and a column for each target: every folds-th pose is left out in turn
-// and predicted from the others. `free` flags the geometry's parameters,
-// `start` is where each fit starts; NaN in a fold whose fit has no usable
-// solution. Without rows for fewer than two folds.
+// pose and a column for each target: every folds-th pose is left out in turn,
+// with all its readings (repeated_poses.h), and predicted from the others.
+// `free` flags the geometry's parameters, `start` is where each fit starts; NaN
+// in a fold whose fit has no usable solution. Without rows for fewer than two
+// folds.
 Eigen::MatrixXd LeftOutDistances(const PoseFit& fit,
                                  const std::vector<bool>& free,
                                  const PoseUnknowns& start, RobustLoss loss,

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "calib/numerics/median.h"
+#include "calib/poses/repeated_poses.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "model/text/option_name.h"
@@ -21,7 +22,6 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kSamePose = 1e-4;  // rad or m
 // Without some to spare the noise would be a guess.
 constexpr int kSpareEquations = 10;
 
@@ -243,17 +243,7 @@ int PoseFit::EquationsPerPose() const {
 
 // Poses that repeat an arm position add nothing to the geometry.
 std::string PoseFit::WhyTooFew(const std::vector<bool>& free) const {
-  std::vector<int> different;
-  for (int k = 0; k < measured_.size(); ++k) {
-    const bool seen =
-        std::any_of(different.begin(), different.end(), [&](int j) {
-          return (measured_.q.row(j) - measured_.q.row(k))
-                     .cwiseAbs()
-                     .maxCoeff() < kSamePose;
-        });
-    if (!seen) different.push_back(k);
-  }
-  const int poses = static_cast<int>(different.size());
+  const int poses = CountPoses(RepeatedPoses(measured_.q));
   const int equations = EquationsPerPose() * poses;
   const int unknowns = NumUnknowns(free);
   if (equations >= unknowns + kSpareEquations) return "";

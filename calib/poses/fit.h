@@ -42,6 +42,9 @@ class PoseFit {
     return armcal::VarianceFactor(residuals, Coordinates(), options_.loss,
                                   num_unknowns);
   }
+  LossScores Scores(const Eigen::VectorXd& residuals) const {
+    return ScoresOf(residuals, Coordinates(), options_.loss);
+  }
   // Coordinates of a position error.
   int Width() const { return CoordinatesOf(measured_); }
   // Coordinates of a residual that share a loss.

@@ -7,6 +7,7 @@
 
 #include "calib/numerics/median.h"
 #include "calib/poses/identifiability.h"
+#include "calib/poses/repeated_poses.h"
 #include "calib/poses/start.h"
 
 namespace armcal {
@@ -236,12 +237,13 @@ double JointTermsFit::Stddev(int term, const std::vector<int>& rows,
   // Errors of a pose are one error in the sandwich (Liang and Zeger 1986).
   const VectorXd influence = J * one;
   const Eigen::Index per_pose = r.size() / rows.size();
-  double variance = 0;
+  const std::vector<int> poses = RepeatedPoses(measured_.q(rows, Eigen::all));
+  VectorXd scores = VectorXd::Zero(CountPoses(poses));
   for (size_t p = 0; p < rows.size(); ++p) {
-    const double score = r.segment(p * per_pose, per_pose)
-                             .dot(influence.segment(p * per_pose, per_pose));
-    variance += score * score;
+    scores[poses[p]] += r.segment(p * per_pose, per_pose)
+                            .dot(influence.segment(p * per_pose, per_pose));
   }
+  const double variance = scores.squaredNorm();
   const double N = static_cast<double>(r.size());
   return std::sqrt(variance * N / std::max(1.0, N - e.A.rows()));
 }

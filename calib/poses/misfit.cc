@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/numerics/median.h"
+#include "calib/poses/repeated_poses.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -57,8 +58,9 @@ bool IsAlikeInOrder(const PoseMisfit& misfit) {
 }
 
 // The correlation of what is left of successive poses, over pairs that do
-// follow each other. Of independent errors it is 0 with the deviation 1 /
-// sqrt(pairs).
+// follow each other; of a pose that was read several times, of the mean, since
+// what the arm errs by is the same in all its readings. Of independent errors
+// it is 0 with the deviation 1 / sqrt(pairs).
 PoseMisfit MeasureMisfit(const PoseFit& fit, const PoseMeasurements& measured,
                          const PoseUnknowns& at,
                          const std::vector<int>& inliers, int num_unknowns) {
@@ -66,10 +68,15 @@ PoseMisfit MeasureMisfit(const PoseFit& fit, const PoseMeasurements& measured,
   if (inliers.size() < 3) return misfit;
   CompareWithInstrument(fit, measured, at, inliers, num_unknowns, &misfit);
   const VectorXd r = fit.Residuals(inliers, at);
-  const auto poses = r.reshaped(r.size() / inliers.size(), inliers.size());
+  // Poses without an inlier have no mean.
+  const std::vector<int> all = RepeatedPoses(measured.q);
+  std::vector<int> pose_of_inlier;
+  for (const int k : inliers) pose_of_inlier.push_back(all[k]);
+  const MatrixXd poses = MeansByPose(
+      r.reshaped(r.size() / inliers.size(), inliers.size()), pose_of_inlier);
   double product = 0, before = 0, after = 0, pairs = 0;
-  for (size_t k = 0; k + 1 < inliers.size(); ++k) {
-    if (inliers[k + 1] != inliers[k] + 1) continue;
+  for (Eigen::Index k = 0; k + 1 < poses.cols(); ++k) {
+    if (!poses.middleCols(k, 2).allFinite()) continue;
     product += poses.col(k).dot(poses.col(k + 1));
     before += poses.col(k).squaredNorm();
     after += poses.col(k + 1).squaredNorm();

@@ -46,25 +46,33 @@ Matrix6d PoseWhitening(const PoseMeasurements& measured, const PoseNoise& noise,
   return covariance.llt().matrixL().solve(Matrix6d::Identity());
 }
 
-// The sandwich A^-1 B A^-1 of an M-estimate with errors that are alike has A =
-// mean psi' J'J and B = mean psi^2 J'J: it is the factor of the header times
-// (J'J)^-1. Blocks of d coordinates share a loss by their length, psi(r) =
-// rho'(s) r with s = |r|^2, of which
-//   |psi|^2 = rho'^2 s,   trace dpsi/dr = d rho' + 2 rho'' s.
-// Without a loss it is the usual variance, |r|^2 / (N - p).
-double VarianceFactor(const Eigen::VectorXd& residuals, int block,
-                      RobustLoss loss, int num_unknowns) {
+// Blocks of d coordinates share a loss by their length, psi(r) = rho'(s) r with
+// s = |r|^2, of which trace dpsi/dr = d rho' + 2 rho'' s.
+LossScores ScoresOf(const Eigen::VectorXd& residuals, int block,
+                    RobustLoss loss) {
   const std::unique_ptr<ceres::LossFunction> rho(MakeLoss(loss, block));
-  const double N = static_cast<double>(residuals.size());
-  double squares = 0, slope = 0;
+  LossScores scores = {Eigen::VectorXd::Zero(residuals.size()), 0};
   for (Eigen::Index k = 0; k + block <= residuals.size(); k += block) {
-    const double s = residuals.segment(k, block).squaredNorm();
+    const auto r = residuals.segment(k, block);
+    const double s = r.squaredNorm();
     double value[3] = {s, 1, 0};  // rho, rho', rho''
     if (rho) rho->Evaluate(s, value);
-    squares += value[1] * value[1] * s;
-    slope += block * value[1] + 2 * value[2] * s;
+    scores.psi.segment(k, block) = value[1] * r;
+    scores.slope += block * value[1] + 2 * value[2] * s;
   }
-  return squares / std::max(1.0, N - num_unknowns) / (slope / N * slope / N);
+  scores.slope /= static_cast<double>(residuals.size());
+  return scores;
+}
+
+// The sandwich A^-1 B A^-1 of an M-estimate with errors that are alike has A =
+// mean psi' J'J and B = mean psi^2 J'J: it is the factor of the header times
+// (J'J)^-1. Without a loss it is the usual variance, |r|^2 / (N - p).
+double VarianceFactor(const Eigen::VectorXd& residuals, int block,
+                      RobustLoss loss, int num_unknowns) {
+  const LossScores scores = ScoresOf(residuals, block, loss);
+  const double N = static_cast<double>(residuals.size());
+  return scores.psi.squaredNorm() / std::max(1.0, N - num_unknowns) /
+         (scores.slope * scores.slope);
 }
 
 int CoordinatesOf(const PoseMeasurements& measured) {

@@ -13,6 +13,16 @@
 
 namespace armcal {
 
+// What a loss makes of residuals in noise units, of which `block` at a time
+// share it: psi = rho'(s) r, which pulls at the estimate, and the mean of its
+// derivative, by which the information J'J counts.
+struct LossScores {
+  Eigen::VectorXd psi;
+  double slope;
+};
+LossScores ScoresOf(const Eigen::VectorXd& residuals, int block,
+                    RobustLoss loss);
+
 // The variance of an M-estimate over that of (J'J)^-1 (Huber 1981, 7.6, without
 // the factor K, which tends to 1 for p / N to 0):
 //   (sum psi^2 / (N - p)) / (mean psi')^2

@@ -13,7 +13,7 @@ constexpr size_t kMostLookedAt = 6;
 }  // namespace
 
 PoseModel ConfirmedPart(const PoseStudy& study, PoseModel model) {
-  const std::vector<int> folds = InterleavedFolds(study.equations.poses());
+  const std::vector<int> folds = EverySixthPose(study);
   for (bool all = false; !all;) {
     all = true;
     double least = 0;

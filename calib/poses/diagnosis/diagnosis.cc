@@ -82,7 +82,7 @@ void SetEquivalents(const PoseStudy& study, const PoseModel& model,
 // poses confirm, takes its place first.
 std::vector<PoseRivals> WeighRivals(const PoseStudy& study, PoseModel* model,
                                     double* design_effect) {
-  const std::vector<int> folds = InterleavedFolds(study.equations.poses());
+  const std::vector<int> folds = EverySixthPose(study);
   std::vector<PoseRivals> all;
   for (int exchanged = 0; all.size() < model->effects.size();) {
     all.push_back(FindRivals(study, *model, all.size(), *design_effect));
@@ -109,7 +109,6 @@ std::vector<PoseFinding> FindingsOf(const PoseStudy& study,
                                     const std::vector<PoseRivals>& all,
                                     double design_effect) {
   const auto amounts = AmountsOf(study, model, design_effect);
-  const int poses = study.equations.poses();
   std::vector<PoseFinding> findings;
   for (size_t e = 0; e < model.effects.size(); ++e) {
     PoseFinding finding;
@@ -131,9 +130,9 @@ std::vector<PoseFinding> FindingsOf(const PoseStudy& study,
     finding.end[1] = end.last;
     SetDisplacement(study, model, e, &finding);
     finding.interleaved =
-        CompareHeldOut(study, rivals.without, model, InterleavedFolds(poses));
+        CompareHeldOut(study, rivals.without, model, EverySixthPose(study));
     finding.contiguous =
-        CompareHeldOut(study, rivals.without, model, ContiguousFolds(poses));
+        CompareHeldOut(study, rivals.without, model, SixStretches(study));
     SetEquivalents(study, model, rivals, &finding);
     findings.push_back(std::move(finding));
   }
@@ -162,15 +161,15 @@ void SetUnconfirmed(const PoseStudy& study, const PoseSelection& selection,
              PlacedName(*placed.effect, best.campaign, placed.place);
   }
   // What held-out poses speak against is not there.
-  const std::vector<int> folds = InterleavedFolds(study.equations.poses());
+  const std::vector<int> folds = EverySixthPose(study);
   if (!(CompareHeldOut(study, model, best, folds).deviance > 0)) return;
   result->unconfirmed = names;
 }
 
 PoseGap GapOf(const PoseStudy& study, const PoseModel& alone,
               const PoseModel& model) {
-  const std::vector<int> every = InterleavedFolds(study.equations.poses());
-  const std::vector<int> stretch = ContiguousFolds(study.equations.poses());
+  const std::vector<int> every = EverySixthPose(study);
+  const std::vector<int> stretch = SixStretches(study);
   const auto held = [&](const PoseModel& m, const std::vector<int>& folds) {
     return RmsDistance(study, HeldOutResiduals(study, m, folds));
   };

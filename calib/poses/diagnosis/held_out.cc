@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/poses/repeated_poses.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
@@ -24,16 +26,12 @@ constexpr double kHardlyTold = 1e-6;
 
 }  // namespace
 
-std::vector<int> InterleavedFolds(int poses) {
-  std::vector<int> folds(poses);
-  for (int k = 0; k < poses; ++k) folds[k] = k % kPoseFolds;
-  return folds;
+std::vector<int> EverySixthPose(const PoseStudy& study) {
+  return InterleavedFolds(RepeatedPoses(study.measured.q), kPoseFolds);
 }
 
-std::vector<int> ContiguousFolds(int poses) {
-  std::vector<int> folds(poses);
-  for (int k = 0; k < poses; ++k) folds[k] = kPoseFolds * k / poses;
-  return folds;
+std::vector<int> SixStretches(const PoseStudy& study) {
+  return ContiguousFolds(RepeatedPoses(study.measured.q), kPoseFolds);
 }
 
 // Without a fold, the normal equations lose J_f' J_f and J_f' r_f, and one
@@ -116,8 +114,14 @@ HeldOutGain CompareHeldOut(const PoseStudy& study, const PoseModel& without,
                            const std::vector<int>& folds) {
   const VectorXd before = HeldOutResiduals(study, without, folds);
   const VectorXd after = HeldOutResiduals(study, with, folds);
-  const VectorXd gain = HeldOutDeviance(study, without, before) -
-                        HeldOutDeviance(study, with, after);
+  const VectorXd by_row = HeldOutDeviance(study, without, before) -
+                          HeldOutDeviance(study, with, after);
+  // A pose's readings gain together, by what the pose has in common.
+  const std::vector<int> pose_of_row = RepeatedPoses(study.measured.q);
+  VectorXd gain = VectorXd::Zero(CountPoses(pose_of_row));
+  for (Eigen::Index k = 0; k < by_row.size(); ++k) {
+    gain[pose_of_row[k]] += by_row[k];
+  }
   const double poses = static_cast<double>(gain.size());
   HeldOutGain result;
   result.deviance = gain.sum();

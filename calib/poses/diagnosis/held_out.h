@@ -9,9 +9,9 @@ namespace armcal {
 
 inline constexpr int kPoseFolds = 6;  // as calibrate's
 
-// Fold of each pose: every sixth pose, or six stretches of the order.
-std::vector<int> InterleavedFolds(int poses);
-std::vector<int> ContiguousFolds(int poses);
+// Fold of each row: every sixth pose, or six stretches of the order.
+std::vector<int> EverySixthPose(const PoseStudy& study);
+std::vector<int> SixStretches(const PoseStudy& study);
 
 // Residuals of each pose, predicted by a model with all its places that was
 // fitted to the poses of other folds: one step of Gauss and Newton from the fit

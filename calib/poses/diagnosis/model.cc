@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/poses/repeated_poses.h"
+
 namespace armcal {
 
 using Eigen::MatrixXd;
@@ -113,26 +115,46 @@ double OrderCorrelation(const MatrixXd& by_pose) {
   return square > 0 ? product / square : 0;
 }
 
-// Both factors are taken only where they exceed chance: 1 + (t - 1) rho of t
-// targets whose errors correlate by rho, and (1 + rho) / (1 - rho) of an AR(1)
-// process.
-double DesignEffect(const PoseStudy& study, const PoseModel& model) {
-  const int width = study.equations.width(), poses = study.equations.poses();
-  const MatrixXd r = WeightedRows(model.estimate, model.estimate.linear.r)
-                         .reshaped(width, poses);
-  const double chance = 2 / std::sqrt(static_cast<double>(poses));
-  const int targets = static_cast<int>(study.measured.targets.size());
-  double effect = 1;
-  if (targets > 1) {
-    VectorXd sum = VectorXd::Zero(3 * poses);
-    for (int t = 0; t < targets; ++t) {
-      sum += r.middleRows(3 * t, 3).reshaped();
-    }
-    const double alike =
-        (sum.squaredNorm() / r.squaredNorm() - 1) / (targets - 1);
-    if (alike > chance) effect *= 1 + (targets - 1) * alike;
+namespace {
+
+// 1 + (m - 1) rho of m readings a pose, targets or repeated ones, whose errors
+// correlate by rho; m is the mean seen from a reading, sum m^2 / sum m (Kish
+// 1965, 5.4 and 11.7).
+double ReadingsEffect(const MatrixXd& r, const std::vector<int>& pose_of_row,
+                      int targets, double chance) {
+  const int poses = CountPoses(pose_of_row);
+  const Eigen::Index width = r.rows() / targets;
+  MatrixXd sum = MatrixXd::Zero(width, poses);
+  VectorXd readings = VectorXd::Zero(poses), squares = VectorXd::Zero(poses);
+  for (size_t k = 0; k < pose_of_row.size(); ++k) {
+    const int pose = pose_of_row[k];
+    const auto row = r.col(static_cast<Eigen::Index>(k));
+    sum.col(pose) += row.reshaped(width, targets).rowwise().sum();
+    readings[pose] += targets;
+    squares[pose] += row.squaredNorm();
   }
-  const double order = std::min(.98, OrderCorrelation(r));
+  const double others = squares.dot((readings.array() - 1).matrix());
+  if (!(others > 0)) return 1;
+  const double alike = (sum.squaredNorm() - r.squaredNorm()) / others;
+  if (!(alike > chance)) return 1;
+  return 1 + (readings.squaredNorm() / readings.sum() - 1) * alike;
+}
+
+}  // namespace
+
+// Both factors are taken only where they exceed chance: that of a pose's
+// readings, and (1 + rho) / (1 - rho) of poses whose errors are an AR(1)
+// process over their order.
+double DesignEffect(const PoseStudy& study, const PoseModel& model) {
+  const MatrixXd r =
+      WeightedRows(model.estimate, model.estimate.linear.r)
+          .reshaped(study.equations.width(), study.equations.poses());
+  const std::vector<int> pose_of_row = RepeatedPoses(study.measured.q);
+  const double chance = 2 / std::sqrt(CountPoses(pose_of_row));
+  const int targets = std::max<int>(1, study.measured.targets.size());
+  double effect = ReadingsEffect(r, pose_of_row, targets, chance);
+  const double order =
+      std::min(.98, OrderCorrelation(MeansByPose(r, pose_of_row)));
   if (order > chance) effect *= (1 + order) / (1 - order);
   return effect;
 }

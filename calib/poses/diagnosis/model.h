@@ -52,9 +52,10 @@ PoseModel FitGeometryAlone(const PoseStudy& study, const PoseState& start);
 // Whether each effect's amount is one that it can have.
 bool IsPossible(const PoseModel& model);
 
-// How many equations count as one, at least 1: errors of targets of one pose
-// and of successive poses that are alike tell less than as many independent
-// ones (the design effect of Kish 1965, of an AR(1) process over the order).
+// How many equations count as one, at least 1: errors of one pose's targets or
+// repeated readings, and of successive poses that are alike tell less than as
+// many independent ones (the design effect of Kish 1965, of an AR(1) process
+// over the order).
 double DesignEffect(const PoseStudy& study, const PoseModel& model);
 
 // Correlation of successive columns.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/poses/misfit.h"
+#include "calib/poses/repeated_poses.h"
 
 namespace armcal {
 
@@ -41,8 +42,9 @@ void SetOrder(const PoseStudy& study, const PoseModel& model,
       WeightedRows(model.estimate, model.estimate.linear.r)
           .reshaped(study.equations.width(), study.equations.poses());
   if (r.squaredNorm() == 0) return;
-  misfit->order_correlation = OrderCorrelation(r);
-  misfit->order_stddev = 1 / std::sqrt(static_cast<double>(r.cols() - 1));
+  const MatrixXd by_pose = MeansByPose(r, RepeatedPoses(study.measured.q));
+  misfit->order_correlation = OrderCorrelation(by_pose);
+  misfit->order_stddev = 1 / std::sqrt(static_cast<double>(by_pose.cols() - 1));
 }
 
 bool IsMoreThanNoise(const PoseMisfit& misfit) {
