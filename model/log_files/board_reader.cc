@@ -150,7 +150,8 @@ class BoardRows {
 BoardImages ReadBoardImages(const std::string& path,
                             const std::vector<std::string>& joint_names) {
   const Table table(path, joint_names);
-  const LogColumns columns(path, table.header, joint_names);
+  const LogColumns columns(path, table.header, joint_names, "",
+                           LogColumns::Bare::kPosition);
   LogRow row(path, columns, -1);
   const BoardPlaces places(path, columns, &row);
   BoardRows rows(path, static_cast<int>(joint_names.size()));

@@ -204,7 +204,8 @@ PoseMeasurements ReadPoses(const std::string& path,
   if (!source->NextLine(&line)) {
     throw InputError(path, "", "", "the file is empty");
   }
-  const LogColumns columns(path, line, joint_names);
+  const LogColumns columns(path, line, joint_names, "",
+                           LogColumns::Bare::kPosition);
   LogRow row(path, columns, -1);
   const Places places = ChooseColumns(path, columns, &row);
   int numbers = -1;

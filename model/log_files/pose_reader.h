@@ -90,13 +90,12 @@ struct PoseMeasurements {
 };
 
 // Reads a table of poses, CSV or another format (line_source.h): joint
-// positions like a log's (q1.. or shoulder/position, with units), and x1 y1 z1
-// [x2 y2 z2 ...] for targets, or x y z qw qx qy qz, or length1, or point, the
-// number (from 1) of the point that is touched, or plane, that of a plane, or
-// tilt_x tilt_y (rad or [deg]), of an inclinometer;
-// optional u95_1 [u95_2 ...] and
-// pose, a number. Lengths in m unless a suffix [mm] says otherwise. Throws
-// InputError.
+// positions like a log's (q1.. or shoulder/position, with units) or by the
+// names of joints alone, and x1 y1 z1 [x2 y2 z2 ...] for targets, or x y z qw
+// qx qy qz, or length1, or point, the number (from 1) of the point that is
+// touched, or plane, that of a plane, or tilt_x tilt_y (rad or [deg]), of an
+// inclinometer; optional u95_1 [u95_2 ...] and pose, a number. Lengths in m
+// unless a suffix [mm] says otherwise. Throws InputError.
 PoseMeasurements ReadPoses(const std::string& path,
                            const std::vector<std::string>& joint_names);
 

@@ -50,8 +50,8 @@ bool EndsWithPart(std::string_view path, std::string_view part) {
 
 LogColumns::LogColumns(const std::string& file, std::string_view header,
                        const std::vector<std::string>& joint_names,
-                       const std::string& about)
-    : file_(file), about_(about), joint_names_(joint_names) {
+                       const std::string& about, Bare bare)
+    : file_(file), about_(about), bare_(bare), joint_names_(joint_names) {
   // numpy.savetxt makes the header a comment.
   if (!header.empty() && header.front() == '#') header.remove_prefix(1);
   header = Trim(header, " ");
@@ -113,6 +113,14 @@ void LogColumns::Classify(int index) {
   for (Signal signal : kSignals) {
     const int number = NumberBetween(NamesOf(signal).number_prefix, "", base);
     if (number >= 0) return Add({index, signal, number, true}, unit);
+  }
+  if (bare_ == Bare::kPosition) {
+    const auto joint =
+        std::find(joint_names_.begin(), joint_names_.end(), base);
+    if (joint != joint_names_.end()) {
+      const auto number = static_cast<int>(joint - joint_names_.begin()) + 1;
+      return Add({index, Signal::kPosition, number, false}, unit);
+    }
   }
   const size_t slash = base.rfind('/');
   if (slash == base.npos) return;

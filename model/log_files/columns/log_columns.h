@@ -22,11 +22,14 @@ struct LogColumn {
 // whatever they hold.
 class LogColumns {
  public:
+  // What a column is that is called as a joint, without any signal: in a log
+  // it may be anything, in a file of poses only the joint's position.
+  enum class Bare { kNothing, kPosition };
   // `file` is for messages, `about` for those on missing columns. Throws
   // InputError where there is no header.
   LogColumns(const std::string& file, std::string_view header,
              const std::vector<std::string>& joint_names,
-             const std::string& about = "");
+             const std::string& about = "", Bare bare = Bare::kNothing);
 
   char separator() const { return separator_; }
   // Fields in a row.
@@ -82,6 +85,7 @@ class LogColumns {
   [[noreturn]] void Refuse(const std::string& expected) const;
 
   std::string file_, about_;
+  Bare bare_;
   std::vector<std::string> joint_names_;
   char separator_ = ',';
   std::vector<std::string> names_;

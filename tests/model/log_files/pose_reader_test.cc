@@ -158,6 +158,14 @@ TEST(PoseReader, TakesNumbersOfPosesWhereTheFileHasThem) {
   EXPECT_TRUE(Read("q1,q2,length1\n0,0,1\n").number.empty());
 }
 
+// A joint's name alone is a position here, whatever it may be in a log.
+TEST(PoseReader, TakesJointsByTheirNamesAlone) {
+  const PoseMeasurements named =
+      Read("shoulder [deg],elbow,length1\n180,2,1\n");
+  EXPECT_NEAR(named.q(0, 0), M_PI, 1e-12);
+  EXPECT_EQ(named.q(0, 1), 2);
+}
+
 TEST(PoseReader, ReadsTilts) {
   const std::string path =
       WriteFile("q1,q2,tilt_x[deg],tilt_y[deg],u95_1[deg]\n0,0,30,-45,.01\n",
