@@ -54,6 +54,9 @@ struct CalibrateOptions {
   // How the torques of logs are read; joint_names are the robot's.
   LogReaderOptions reading;
   LogInput validation;  // held out, to check the result
+  // The same of poses without logs: of the same instrument, which has not been
+  // moved, and what it looked at.
+  std::optional<PoseMeasurements> pose_validation;
   std::optional<PayloadLogs> payload;
   std::optional<CommandedCalibrationOptions> commands;
   std::vector<std::string> exports;  // formats beside URDF: "mjcf", "sdf" ..

@@ -4,6 +4,7 @@
 #include "calib/calibration_details.h"
 #include "calib/poses/cross_validation.h"
 #include "calib/poses/report.h"
+#include "calib/poses/unit_audit.h"
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"
 #include "model/camera/camera_file.h"
@@ -28,6 +29,25 @@ void AddCameras(const PoseMeasurements& measured, const PoseCalibration& result,
   }
 }
 
+// What was fitted of the instrument has to be that of the poses held out.
+void CheckValidation(const PoseMeasurements& measured,
+                     const PoseMeasurements& validation) {
+  if (measured.instrument.size() > 0 || !measured.touched.empty()) {
+    throw OptionError(
+        OptionName("validate") + ": found " +
+        (measured.touched.empty() ? "cameras to be estimated" : "touches") +
+        " in " + OptionName("poses") +
+        ", expected poses, targets, wire lengths, tilts or images of one known "
+        "camera: others stand for nothing in another file");
+  }
+  if (measured.kind() != validation.kind() ||
+      measured.targets.size() != validation.targets.size()) {
+    throw OptionError(OptionName("validate") + ": expected what " +
+                      OptionName("poses") +
+                      " has, measured in the same way: its columns differ");
+  }
+}
+
 }  // namespace
 
 CalibrateSummary CalibrateFromPoses(const Robot& robot,
@@ -41,9 +61,15 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
                       "poses tell nothing of masses to draw from; give a " +
                       OptionName("log") + " beside them");
   }
+  if (options.pose_validation) {
+    CheckValidation(*options.poses, *options.pose_validation);
+    fit.validation = &*options.pose_validation;
+  }
   fit.prior_length = options.trust.length;
   fit.prior_angle = options.trust.angle;
   if (options.progress) options.progress("fitting the poses", -1);
+  const std::string units = WrongUnits(robot, *options.poses);
+  if (!units.empty()) throw OptionError(OptionName("poses") + ": " + units);
   fit.loss = options.equations.loss
                  ? *options.equations.loss
                  : ChoosePoseLoss(robot, *options.poses, fit);

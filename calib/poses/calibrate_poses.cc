@@ -7,8 +7,9 @@
 
 #include "calib/numerics/median.h"
 #include "calib/poses/coupling.h"
-#include "calib/poses/cross_validation.h"
 #include "calib/poses/fit.h"
+#include "calib/poses/follow.h"
+#include "calib/poses/held_out_figures.h"
 #include "calib/poses/misfit.h"
 #include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
@@ -20,18 +21,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// rms of positions (of the first target, or of lengths) about their mean, m;
-// points that are touched have none.
-double Extent(const PoseMeasurements& measured) {
-  if (!measured.touched.empty()) return std::numeric_limits<double>::infinity();
-  MatrixXd p = measured.lengths;
-  if (!measured.targets.empty()) p = measured.targets[0];
-  if (measured.poses.size() > 0) p = measured.poses.leftCols(3);
-  if (measured.tilts.size() > 0) p = measured.tilts;
-  const MatrixXd about = p.rowwise() - p.colwise().mean();
-  return about.norm() / std::sqrt(static_cast<double>(p.rows()));
-}
 
 // Derivatives of `rows` by the free parameters, then by what else there is,
 // with the priors of the latter.
@@ -77,6 +66,24 @@ void ReportInstrument(const InstrumentUnknowns& unknowns, const VectorXd& at,
   }
 }
 
+// An instrument's own unknowns are told as what they stand for instead.
+void ReportObserved(const PoseFit& fit, const PoseUnknowns& at,
+                    const VectorXd& variance, const VectorXd& unseen,
+                    PoseCalibration* result) {
+  if (fit.measured().poses.size() > 0) return;
+  const std::vector<std::string> names =
+      PoseUnknowns::OtherNames(fit.measured());
+  for (Eigen::Index k = 0; k < at.other.size(); ++k) {
+    // A plane is two slopes and a distance.
+    const bool is_slope = fit.measured().planes && k % 3 < 2;
+    const bool is_seen = unseen[k] < 1e-6 && std::isfinite(variance[k]);
+    result->observed.push_back({names[k], is_slope ? "1" : "m", at.other[k],
+                                is_seen
+                                    ? std::sqrt(variance[k])
+                                    : std::numeric_limits<double>::infinity()});
+  }
+}
+
 // The free parameters with standard deviations from the data alone.
 void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
                       const std::vector<int>& rows, const PoseUnknowns& at,
@@ -107,6 +114,8 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
     ++c;
   }
   const Eigen::Index others = at.other.size();
+  ReportObserved(fit, at, covariance.diagonal().tail(others),
+                 seen.unseen.tail(others), result);
   ReportInstrument(fit.measured().instrument, at.other,
                    covariance.bottomRightCorner(others, others), result);
 }
@@ -151,7 +160,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   result.refined = options.refine != RefineGeometry::kNothing;
   result.travel =
       measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();
-  result.extent = Extent(measured);
+  result.extent = PoseExtent(measured);
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   result.reason = solution.refusal;
   result.before = solution.before;
@@ -164,16 +173,7 @@ PoseCalibration CalibratePoses(const Robot& robot,
   const std::vector<int> inliers =
       ReportErrors(fit, measured, solution, &result);
   result.coupling = FindCoupling(robot, measured, options);
-  const MatrixXd predicted = LeftOutDistances(
-      fit, solution.free, solution.unknowns, options.loss, options.folds);
-  std::vector<double> left_out;
-  for (const double d : predicted.reshaped()) {
-    if (std::isfinite(d)) left_out.push_back(d);
-  }
-  if (!left_out.empty()) {
-    result.held_out_rms = Rms(left_out);
-    result.held_out_median = Median(left_out);
-  }
+  ReportHeldOut(fit, solution, options, &result);
   // What Tukey's loss gives up tells nothing; the others let all poses pull.
   const bool some = options.loss == RobustLoss::kTukey && !inliers.empty();
   ReportParameters(fit, solution.free, some ? inliers : fit.AllRows(),

@@ -21,6 +21,8 @@ struct PoseCalibrationOptions {
   double prior_length = 0.01;
   double prior_angle = 0.02;
   int folds = 6;  // of the cross-validation
+  // Poses that take no part in the fit, on which it is judged; null: none.
+  const PoseMeasurements* validation = nullptr;
 };
 
 struct GeometryEstimate {
@@ -31,6 +33,24 @@ struct GeometryEstimate {
   double stddev;  // infinite where not identifiable
   double prior;   // standard deviation of the prior, 0: none
   bool identifiable;
+};
+
+// Where the things are that were measured: a reflector on the tool, an anchor,
+// a point that was touched.
+struct ObservedEstimate {
+  std::string name;  // PoseUnknowns::OtherNames: "target1.x"
+  std::string unit;
+  double value;
+  double stddev;  // infinite where not identifiable
+};
+
+// Poses that took no part in the fit, m rms (rad of tilts), predicted with the
+// instrument where the fit found it: by the file's geometry and the estimate.
+struct PoseValidation {
+  int count = 0;
+  double file_rms = 0;
+  double rms = 0;
+  double median = 0;
 };
 
 // What was estimated of the instrument beside the arm: a camera's lens, where a
@@ -72,6 +92,7 @@ struct PoseCalibration {
   bool solved = false;
   std::string reason;
   std::vector<GeometryEstimate> parameters;  // estimated ones
+  std::vector<ObservedEstimate> observed;
   std::vector<InstrumentEstimate> instrument;
   // Sentences: what is held because the poses cannot tell it.
   std::vector<std::string> held;
@@ -91,6 +112,14 @@ struct PoseCalibration {
   double max = 0;
   double held_out_rms = 0;  // cross-validated
   double held_out_median = 0;
+  // The file's geometry, with the frame and what was observed fitted to the
+  // others in the same way; of a refined geometry alone.
+  double file_held_out_rms = 0;
+  // By how much the mean square of poses left out is larger with the refined
+  // geometry than with the file's, m^2, and the standard error of that; poses
+  // that both give up, which nothing predicts, are in neither.
+  double held_out_excess = 0, held_out_excess_stderr = 0;
+  std::optional<PoseValidation> validation;
   std::vector<int> outliers;  // poses that Tukey's loss gives up
   // Per joint, the share of its motion (of its sum of squares about the mean)
   // that is in poses which are no outliers.

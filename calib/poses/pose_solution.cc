@@ -31,6 +31,8 @@ PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
     return solution;
   }
   solution.before = fit->Distances(rows, solution.unknowns);
+  solution.frame = solution.unknowns;
+  solution.frame_free = solution.free;
   const bool solved = solve(refine, "the geometry cannot be solved for");
   if (solved && !measured.touched.empty()) {
     SetScaleByFile(*fit, measured, solution.free, &solution.unknowns);

@@ -15,6 +15,8 @@ struct PoseSolution {
   std::vector<bool> free;         // of the geometry's parameters
   std::vector<std::string> held;  // sentences
   std::vector<double> before;     // distances, m, with only the frame fitted
+  PoseUnknowns frame;             // as they are then
+  std::vector<bool> frame_free;
 };
 PoseSolution SolvePoses(const PoseMeasurements& measured, RefineGeometry refine,
                         PoseFit* fit);

@@ -6,6 +6,7 @@
 
 #include "calib/linear/verdict.h"
 #include "calib/numerics/json_figures.h"
+#include "calib/poses/pose_label.h"
 #include "calib/poses/verdict.h"
 #include "model/text/format.h"
 
@@ -52,10 +53,10 @@ std::string OutlierText(const PoseMeasurements& measured,
                         const PoseCalibration& result) {
   if (result.outliers.empty()) return "";
   std::string text = "outliers   " + std::to_string(result.outliers.size()) +
-                     " poses beyond Tukey's limit, rows";
+                     " poses beyond Tukey's limit, " + PoseWord(measured) + "s";
   constexpr size_t kShown = 12;
   for (size_t k = 0; k < std::min(kShown, result.outliers.size()); ++k) {
-    text += " " + std::to_string(measured.row[result.outliers[k]]);
+    text += " " + std::to_string(PoseLabel(measured, result.outliers[k]));
   }
   if (result.outliers.size() > kShown) text += " ... (all in calibration.json)";
   return text + "\n";
@@ -86,6 +87,67 @@ std::string InstrumentText(const PoseCalibration& result) {
                                     unit.name.c_str()));
   }
   return text;
+}
+
+// The first line where the result does harm.
+std::string WorseText(const PoseCalibration& result, const char* unit) {
+  if (!IsWorseThanFile(result)) return "";
+  return Format(
+      "WORSE than the file on poses that were left out: %.3g %s rms against "
+      "%.3g %s\n",
+      1e3 * result.held_out_rms, unit, 1e3 * result.file_held_out_rms, unit);
+}
+
+// Of poses left out, beside the estimate's own figures.
+std::string HeldOutText(const PoseCalibration& result, const char* unit) {
+  std::string text;
+  if (result.file_held_out_rms > 0) {
+    text += Format(
+        "           cross-validated with the file's geometry %.4f %s rms\n",
+        1e3 * result.file_held_out_rms, unit);
+  }
+  if (!result.validation) return text;
+  const PoseValidation& v = *result.validation;
+  return text +
+         Format(
+             "validation %d poses: %.4f %s rms with the file's geometry, "
+             "%.4f %s with the estimate, median %.4f %s\n",
+             v.count, 1e3 * v.file_rms, unit, 1e3 * v.rms, unit, 1e3 * v.median,
+             unit);
+}
+
+// Of what the instrument looks at, or hangs on.
+std::string ObservedText(const PoseCalibration& result) {
+  if (result.observed.empty()) return "";
+  std::string text = "\nwhat was measured\n";
+  for (const ObservedEstimate& p : result.observed) {
+    const ShownUnit unit(p.unit);
+    text += Format("  %-22s %12.4f ", p.name.c_str(), unit.scale * p.value) +
+            (std::isfinite(p.stddev)
+                 ? Format("+- %-9.2g %s\n", unit.scale * p.stddev,
+                          unit.name.c_str())
+                 : "(not seen)   " + unit.name + "\n");
+  }
+  return text;
+}
+
+json ObservedJson(const PoseCalibration& result) {
+  json all = json::array();
+  for (const ObservedEstimate& p : result.observed) {
+    all.push_back({{"name", p.name},
+                   {"unit", p.unit},
+                   {"value", JsonNumber(p.value)},
+                   {"stddev", JsonNumber(p.stddev)}});
+  }
+  return all;
+}
+
+json ValidationJson(const PoseCalibration& result) {
+  if (!result.validation) return nullptr;
+  return {{"count", result.validation->count},
+          {"file_rms", JsonNumber(result.validation->file_rms)},
+          {"rms", JsonNumber(result.validation->rms)},
+          {"median", JsonNumber(result.validation->median)}};
 }
 
 json InstrumentJson(const PoseCalibration& result) {
@@ -144,7 +206,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   if (!result.solved) {
     return robot.name + ": not calibrated: " + result.reason + "\n";
   }
-  char line[256];
+  char line[320];
   const std::string milli = "m" + result.unit;
   const char* const unit = milli.c_str();
   std::snprintf(line, sizeof(line),
@@ -158,14 +220,16 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
                 1e3 * result.median, unit, 1e3 * result.max, unit,
                 1e3 * result.held_out_rms, unit, 1e3 * result.held_out_median,
                 unit);
-  std::string text = line + CameraText(measured) + LossText(result) +
-                     OutlierText(measured, result) + MisfitText(result, unit) +
+  std::string text = WorseText(result, unit) + line +
+                     HeldOutText(result, unit) + CameraText(measured) +
+                     LossText(result) + OutlierText(measured, result) +
+                     MisfitText(result, unit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   for (const std::string& sentence : result.held) {
     text += "held       " + sentence + "\n";
   }
-  return text + InstrumentText(result) +
+  return text + ObservedText(result) + InstrumentText(result) +
          VerdictText(Shortcomings(robot, result));
 }
 
@@ -189,6 +253,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
           {"estimate", "refined"},
           {"geometry", geometry},
           {"held", result.held},
+          {"observed", ObservedJson(result)},
           {"instrument", InstrumentJson(result)},
           {"verdict", VerdictJson(Shortcomings(robot, result))},
           {"poses",
@@ -202,6 +267,10 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"loss", LossName(result.loss)},
             {"cross_validated_rms", result.held_out_rms},
             {"cross_validated_median", result.held_out_median},
+            {"file_cross_validated_rms",
+             result.file_held_out_rms > 0 ? JsonNumber(result.file_held_out_rms)
+                                          : json(nullptr)},
+            {"validation", ValidationJson(result)},
             {"noise_stddev", result.noise.position},
             {"pixel_stddev", measured.pixel_stddev > 0
                                  ? JsonNumber(measured.pixel_stddev)

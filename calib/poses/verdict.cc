@@ -5,6 +5,7 @@
 
 #include "calib/linear/verdict.h"
 #include "calib/logs/encoder_noise.h"
+#include "calib/poses/follow.h"
 #include "calib/poses/misfit.h"
 #include "model/text/format.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-// Share of the poses' extent that the median deviation must not exceed.
-constexpr double kMostDeviation = 0.1;
 // Of the poses: routine data hold 1 to 10 % gross errors (Hampel et al. 1986,
 // section 1.2c). More are no gross errors but something that the model lacks.
 constexpr double kMostGrossErrors = 0.1;
@@ -98,7 +97,28 @@ void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
                        " can count as errors of measurement");
 }
 
+// By more than the standard error of their difference, pose by pose, which is
+// the bar at which a loss is chosen, too (cross_validation.h).
+bool IsClearlyWorseThanFile(const PoseCalibration& result) {
+  return IsWorseThanFile(result) &&
+         result.held_out_excess > result.held_out_excess_stderr;
+}
+
+std::string WorseThanFile(const PoseCalibration& result) {
+  return "on poses that were left out the refined geometry is worse (" +
+         Thousandths(result, result.held_out_rms) + " rms) than the file's (" +
+         Thousandths(result, result.file_held_out_rms) +
+         "): too few poses for so many parameters, or what it gives up as "
+         "outliers is not explained by it; measure more poses, or estimate "
+         "fewer parameters";
+}
+
 }  // namespace
+
+bool IsWorseThanFile(const PoseCalibration& result) {
+  return result.solved && result.refined &&
+         result.held_out_rms > result.file_held_out_rms;
+}
 
 // What makes the geometry useless, or a poor account of what was measured.
 Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
@@ -111,11 +131,14 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   }
   AddGivenUpMotion(robot, result, &sentences);
   const double deviation = std::max(result.median, result.held_out_median);
-  if (deviation > kMostDeviation * result.extent) {
+  if (!FollowsJoints(deviation, result.extent)) {
     sentences.push_back("the poses do not follow the joints: they deviate by " +
                         Thousandths(result, deviation) +
                         " (median) of an extent of " +
                         Thousandths(result, result.extent));
+  }
+  if (IsClearlyWorseThanFile(result)) {
+    sentences.push_back(WorseThanFile(result));
   }
   AddOutliers(result, &sentences);
   AddBesideInstrument(result, &sentences);
@@ -127,12 +150,8 @@ Sentences PoseNotes(const PoseCalibration& result) {
   if (!result.solved) return notes;
   const std::string order = OrderSentence(result.misfit);
   if (!order.empty()) notes.push_back(order);
-  if (result.refined && result.held_out_rms > result.before_rms) {
-    notes.push_back(
-        "on poses that were left out the refined geometry is worse (" +
-        Thousandths(result, result.held_out_rms) + " rms) than the file's (" +
-        Thousandths(result, result.before_rms) +
-        "): what it gives up as outliers is not explained by it");
+  if (IsWorseThanFile(result) && !IsClearlyWorseThanFile(result)) {
+    notes.push_back(WorseThanFile(result));
   }
   return notes;
 }

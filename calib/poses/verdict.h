@@ -11,13 +11,18 @@ namespace armcal {
 // Sentences that say why a fit of poses does not give what was asked for: it
 // has no solution, joint positions are coupled, a joint never moves or only in
 // outliers, the poses do not follow the joints, too many of them are outliers,
-// or far more is left than the instrument's uncertainty. None where all is
-// well.
+// others are predicted clearly worse than by the file, or far more is left than
+// the instrument's uncertainty. None where all is well.
 std::vector<std::string> Shortcomings(const Robot& robot,
                                       const PoseCalibration& result);
 
+// Whether the refined geometry predicts poses that it has not seen worse than
+// the file's geometry does.
+bool IsWorseThanFile(const PoseCalibration& result);
+
 // Sentences on what is left that are no reason to fail: it depends on when it
-// was measured, or the refined geometry predicts poses worse than the file's.
+// was measured, or the refined geometry is worse than the file's by no more
+// than chance.
 std::vector<std::string> PoseNotes(const PoseCalibration& result);
 
 }  // namespace armcal

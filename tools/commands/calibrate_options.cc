@@ -128,6 +128,10 @@ CalibrateOptions CalibrateOptionsFromFlags(const CommandInput& input,
   if (!flags.Text("poses").empty()) {
     options.poses = PosesFromFlags(flags, robot);
   }
+  const std::string held_out = flags.Text("validate");
+  if (poses_alone && !held_out.empty()) {
+    options.pose_validation = PosesFromFile(flags, robot, held_out);
+  }
   options.source = RobotSourceFromFlags(input);
   options.draw_torques = input.WantsReport();
   options.progress = input.progress;
