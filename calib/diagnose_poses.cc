@@ -7,6 +7,7 @@
 #include "calib/poses/diagnosis/compliance_reader.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
+#include "calib/poses/unit_audit.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
@@ -60,7 +61,7 @@ void AddCorrection(const PoseMeasurements& measured,
       CorrectFromPoses(measured, diagnosis.model,
                        options.validation ? &*options.validation : nullptr);
   (*json)["correction"] = CorrectionJson(correction);
-  summary->report += CorrectionText(correction);
+  summary->report += CorrectionText(correction, diagnosis.gap.held_out_after);
   summary->files.push_back(
       {"correction.c", CorrectionCode(correction.arm, correction.errors)});
   if (TableHelps(correction.errors)) {
@@ -89,6 +90,8 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                       "lengths or images: too many effects look like another "
                       "point");
   }
+  const std::string units = WrongUnits(robot, measured);
+  if (!units.empty()) throw OptionError(OptionName("poses") + ": " + units);
   PoseDiagnosisOptions search;
   search.geometry = options.geometry;
   search.without = options.without;
@@ -110,7 +113,7 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
   DiagnosePosesSummary summary;
   summary.verdict = PoseVerdictName(details->verdict);
   for (const PoseFinding& finding : details->findings) {
-    summary.effects.push_back(finding.name);
+    if (IsNamed(finding)) summary.effects.push_back(finding.name);
   }
   summary.positive = details->verdict == PoseVerdict::kNoiseFloor;
   summary.brief = PoseSentence(*details);

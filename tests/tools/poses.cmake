@@ -66,6 +66,35 @@ expect_refusal(3 "broken.csv: row 1" "y2")
 run("no such geometry" calibrate ${flags} --geometry=lengths --out=none)
 expect_refusal(2 "--geometry: found 'lengths', expected one of known, offsets, refine")
 
+# Degrees that are read as radians, millimetres as metres, are told as such.
+execute_process(COMMAND awk -F, -v OFS=, "NR > 1 {$1 *= 57.29578; $2 *= 57.29578; $4 *= 57.29578} {print}"
+                        ${DATA_DIR}/scara/poses.csv OUTPUT_FILE ${WORK_DIR}/degrees.csv)
+execute_process(COMMAND awk -F, -v OFS=, "NR > 1 {for (k = NF - 5; k <= NF; ++k) $k *= 1000} {print}"
+                        ${DATA_DIR}/scara/poses.csv OUTPUT_FILE ${WORK_DIR}/millimetres.csv)
+foreach(command calibrate diagnose)
+  run("${command} of degrees" ${command} --robot=${DATA_DIR}/scara/robot.yaml --poses=degrees.csv --out=none)
+  expect_refusal(2 "--poses: joint positions are degrees" "'q1 [deg]'")
+  run("${command} of millimetres" ${command} --robot=${DATA_DIR}/scara/robot.yaml
+      --poses=millimetres.csv --out=none)
+  expect_refusal(2 "--poses: lengths are millimetres" "'x1 [mm]'")
+endforeach()
+
+# Poses that took no part, and a file that is not there.
+run("calibration with poses held out" calibrate ${flags} --geometry=refine
+    --validate=${DATA_DIR}/scara/poses.csv --out=validated)
+expect_code(0)
+expect_text(out "validation 40 poses: 1.8" "what was measured" "target1.x")
+run("no poses to validate" calibrate ${flags} --validate=nowhere.csv --out=none)
+expect_refusal(3 "nowhere.csv")
+
+# Joints by their names alone.
+file(READ ${DATA_DIR}/scara/poses.csv poses)
+string(REPLACE "q1,q2,q3,q4," "shoulder,elbow,lift,wrist," named "${poses}")
+file(WRITE ${WORK_DIR}/named.csv "${named}")
+run("joints by name" calibrate --robot=${DATA_DIR}/scara/robot.yaml --poses=named.csv)
+expect_code(0)
+expect_text(out "40, targets")
+
 # diagnose --poses: geometry is all that is wrong with these, and then it is not.
 run("diagnosed" diagnose ${flags} --out=diagnosed)
 expect_code(0)

@@ -33,12 +33,13 @@ json RowsJson(const Eigen::MatrixX3d& vectors, Eigen::Index every) {
   return rows;
 }
 
-// {joints: [{name, unit}], number, q: a list per joint, lengths: [[geometry,
-// after]] of each target, pose by pose; of points also posture, thinned, at,
-// geometry, after: [[x, y, z]] in the base frame}. m and rad.
+// {joints: [{name, unit}], word, number, q: a list per joint, lengths:
+// [[geometry, after]] of each target, pose by pose; of points also posture,
+// thinned, at, geometry, after: [[x, y, z]] in the base frame}. m and rad.
 json PoseErrorsJson(const Robot& robot, const PoseMeasurements& measured,
                     const PoseDiagnosis& diagnosis) {
   json drawn = {{"joints", json::array()},
+                {"word", diagnosis.model.campaign.word},
                 {"number", json::array()},
                 {"q", json::array()},
                 {"lengths", json::array()}};

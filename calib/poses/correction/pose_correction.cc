@@ -51,14 +51,18 @@ bool TableHelps(const CorrectionErrors& errors) {
          errors.by_table.p95 < errors.before.p95;
 }
 
-std::string CorrectionText(const PoseCorrection& correction) {
+std::string CorrectionText(const PoseCorrection& correction, double held_out) {
   const CorrectionErrors& errors = correction.errors;
   std::string text =
-      "\nthe tool in 1000 postures, mm away       median        95 %     at "
+      "\nfrom the fitted arm in 1000 postures, mm median        95 %     at "
       "most\n" +
       ErrorText("as commanded", errors.before) +
       ErrorText("with correction.c", errors.command) +
       ErrorText("with correction.csv", errors.by_table);
+  text += Format(
+      "  these are distances between models; the fitted arm itself is %.3g mm "
+      "rms from held-out poses\n",
+      1e3 * held_out);
   if (!TableHelps(errors)) {
     text += Format(
         "  a table of %ld rows is too coarse for these joints' ranges: no "

@@ -27,7 +27,9 @@ PoseCorrection CorrectFromPoses(const PoseMeasurements& measured,
 // does more good than harm.
 bool TableHelps(const CorrectionErrors& errors);
 
-std::string CorrectionText(const PoseCorrection& correction);
+// `held_out`: m rms by which poses that took no part in the fit miss the arm
+// that was found, beside which the figures of the correction stand.
+std::string CorrectionText(const PoseCorrection& correction, double held_out);
 nlohmann::json CorrectionJson(const PoseCorrection& correction);
 
 }  // namespace armcal

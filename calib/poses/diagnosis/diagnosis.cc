@@ -10,7 +10,10 @@
 #include "calib/poses/diagnosis/rivals.h"
 #include "calib/poses/diagnosis/scan.h"
 #include "calib/poses/diagnosis/separation.h"
+#include "calib/poses/diagnosis/settled_rivals.h"
+#include "calib/poses/follow.h"
 #include "calib/poses/pose_solution.h"
+#include "model/text/format.h"
 
 namespace armcal {
 
@@ -29,8 +32,6 @@ constexpr double kHeavyTails = 5;
 // than a tenth.
 constexpr int kMostWeighings = 3;
 constexpr double kSameWeight = 1.5;
-// Rivals that take an effect's place; each is better than the one before.
-constexpr int kMostExchanges = 4;
 
 void SetErrors(PoseStudy* study, PoseModel* model, PoseModel* alone) {
   study->nu = std::numeric_limits<double>::infinity();
@@ -76,32 +77,6 @@ void SetEquivalents(const PoseStudy& study, const PoseModel& model,
     }
     finding->equivalents.push_back(equivalent);
   }
-}
-
-// Rivals of each effect. One that is likelier than an effect, and that held-out
-// poses confirm, takes its place first.
-std::vector<PoseRivals> WeighRivals(const PoseStudy& study, PoseModel* model,
-                                    double* design_effect) {
-  const std::vector<int> folds = EverySixthPose(study);
-  std::vector<PoseRivals> all;
-  for (int exchanged = 0; all.size() < model->effects.size();) {
-    all.push_back(FindRivals(study, *model, all.size(), *design_effect));
-    const PoseRivals& own = all.back();
-    if (exchanged == kMostExchanges || own.rivals.empty()) continue;
-    const PoseRival& rival = own.rivals[0];
-    if (rival.weight <= 1) continue;
-    const HeldOutGain gain =
-        CompareHeldOut(study, own.without, rival.model, folds);
-    const HeldOutGain before =
-        CompareHeldOut(study, own.without, *model, folds);
-    if (!gain.IsClear() && gain.deviance < before.deviance) continue;
-    PoseModel better = rival.model;
-    *model = std::move(better);
-    *design_effect = DesignEffect(study, *model);
-    all.clear();
-    ++exchanged;
-  }
-  return all;
 }
 
 std::vector<PoseFinding> FindingsOf(const PoseStudy& study,
@@ -217,21 +192,6 @@ PoseSearch SearchEffects(const PoseState& start, PoseStudy* study) {
   return search;
 }
 
-// Confirms once more what rivals have changed.
-std::vector<PoseRivals> SettleRivals(const PoseStudy& study, PoseModel* model,
-                                     double* design_effect) {
-  std::vector<PoseRivals> rivals = WeighRivals(study, model, design_effect);
-  PoseModel confirmed = ConfirmedPart(study, *model);
-  if (confirmed.effects == model->effects) return rivals;
-  *model = std::move(confirmed);
-  *design_effect = DesignEffect(study, *model);
-  rivals.clear();
-  for (size_t e = 0; e < model->effects.size(); ++e) {
-    rivals.push_back(FindRivals(study, *model, e, *design_effect));
-  }
-  return rivals;
-}
-
 // Amounts that something else has told, too, once effects are named: these stay
 // what the poses alone say, and the geometry makes room for both.
 void AddTold(const std::vector<Told>& compliance, double design_effect,
@@ -252,6 +212,22 @@ void AddTold(const std::vector<Told>& compliance, double design_effect,
     }
     finding.ci95 = all[e].ci95;
   }
+}
+
+// As calibrate judges a geometry: where even the effects leave poses anywhere,
+// they were taken for what is wrong with the file, and none is claimed.
+void RefuseWhatDoesNotFollow(const PoseMeasurements& measured,
+                             PoseDiagnosis* result) {
+  const double extent = PoseExtent(measured);
+  const double left = Median(result->distances);
+  if (FollowsJoints(left, extent)) return;
+  result->verdict = PoseVerdict::kNotTestable;
+  result->findings.clear();
+  result->reason = Format(
+      "the poses do not follow the joints: they deviate by %.3g mm (median) of "
+      "an extent of %.3g mm; signs, units or the order of joints differ from "
+      "the robot file's",
+      1e3 * left, 1e3 * extent);
 }
 
 }  // namespace
@@ -281,7 +257,8 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   SetErrors(&study, &model, &alone);
   result.design_effect = DesignEffect(study, model);
   if (options.progress) options.progress("weighing rivals", -1);
-  const auto rivals = SettleRivals(study, &model, &result.design_effect);
+  const auto rivals =
+      SettleRivals(study, &model, &result.design_effect, &result.unlikely);
   result.findings = FindingsOf(study, model, rivals, result.design_effect);
   if (!options.compliance.empty()) {
     AddTold(options.compliance, result.design_effect, &study, &model,
@@ -293,6 +270,7 @@ PoseDiagnosis DiagnosePoseGap(const Robot& robot,
   result.nu = study.nu;
   result.model = std::move(model);
   JudgeRemainder(study, &result);
+  RefuseWhatDoesNotFollow(measured, &result);
   return result;
 }
 

@@ -43,6 +43,14 @@ struct PoseEquivalent {
   double differ = 0;
 };
 
+// An effect beside which that there is none is at least as likely: nothing is
+// claimed of it.
+struct UnlikelyPoseEffect {
+  std::string name;
+  double probability = 0;
+  double none = 0;
+};
+
 struct PoseFinding {
   PlacedPoseEffect placed;
   std::string name;
@@ -75,12 +83,19 @@ enum class PoseVerdict {
 };
 const char* PoseVerdictName(PoseVerdict verdict);
 
+// Whether an effect is likelier than all else together; a finding that is not
+// is one of a few causes that the poses cannot tell apart.
+inline bool IsNamed(const PoseFinding& finding) {
+  return finding.probability >= .5;
+}
+
 struct PoseDiagnosis {
   PoseVerdict verdict = PoseVerdict::kNotTestable;
   std::string reason;  // of kNotTestable
   std::vector<PoseFinding> findings;
   // The likeliest effects that held-out poses do not confirm.
   std::string unconfirmed;
+  std::vector<UnlikelyPoseEffect> unlikely;
   PoseGap gap;
   PoseMisfit misfit;  // what the effects leave
   // Residuals of the geometry without effects, as model.estimate.linear.r.

@@ -150,6 +150,13 @@ json PoseDiagnosisJson(const Robot& robot, const PoseMeasurements& measured,
   result["left"] = LeftJson(measured, diagnosis);
   result["where"] = {{"distances", diagnosis.distances}};
   result["fitted_not_named"] = diagnosis.unconfirmed;
+  result["unlikely"] = json::array();
+  for (const UnlikelyPoseEffect& effect : diagnosis.unlikely) {
+    result["unlikely"].push_back(
+        {{"name", effect.name},
+         {"probability", JsonNumber(effect.probability)},
+         {"probability_of_none", JsonNumber(effect.none)}});
+  }
   result["design_effect"] = JsonNumber(diagnosis.design_effect);
   result["heavy_tails"] = std::isfinite(diagnosis.nu);
   result["unknowns"] = diagnosis.unknowns;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "calib/poses/diagnosis/interval.h"
-#include "model/text/enumeration.h"
+#include "calib/poses/pose_label.h"
 #include "model/text/format.h"
 
 namespace armcal {
@@ -78,18 +78,22 @@ std::string SharePercent(double share) {
 std::string SideText(const char* name, const int range[2],
                      const PoseCampaign& campaign, int shift) {
   if (range[0] < 0 || range[0] == range[1]) return "";
-  return Format("; %s between pose %ld and %ld", name,
+  return Format("; %s between %ss %ld and %ld", name, campaign.word.c_str(),
                 campaign.number[range[0] - shift],
                 campaign.number[range[1] - shift]);
 }
 
 std::string EquivalentText(const PoseFinding& finding) {
+  constexpr double kShown = .005;  // what is not 0 % where it is rounded
   std::string text;
+  if (finding.none > kShown) {
+    text += Format("         or %2.0f %%  no effect\n", 100 * finding.none);
+  }
+  if (finding.equivalents.empty()) return text;
   for (const PoseEquivalent& other : finding.equivalents) {
     text += Format("         or %2.0f %%  ", 100 * other.probability) +
             other.name + "\n";
   }
-  if (text.empty()) return text;
   const PoseEquivalent& first = finding.equivalents[0];
   if (first.told_apart_at.size() == 0) {
     return text + "         told apart by " +
@@ -160,20 +164,32 @@ std::string LeftText(const PoseMeasurements& measured,
   if (!diagnosis.unconfirmed.empty()) {
     text += "  held-out poses do not confirm " + diagnosis.unconfirmed + "\n";
   }
+  for (const UnlikelyPoseEffect& effect : diagnosis.unlikely) {
+    text += Format("  %.0f %%  ", 100 * effect.probability) + effect.name +
+            Format(": not claimed, no effect is as likely (%.0f %%)\n",
+                   100 * effect.none);
+  }
   if (diagnosis.outliers.empty()) return text;
-  text += Format("  %zu fit badly, rows", diagnosis.outliers.size());
+  text += Format("  %zu fit badly, %ss", diagnosis.outliers.size(),
+                 PoseWord(measured));
   for (size_t k = 0; k < std::min(diagnosis.outliers.size(), kRowsShown); ++k) {
-    text += Format(" %ld", measured.row[diagnosis.outliers[k]]);
+    text += Format(" %ld", PoseLabel(measured, diagnosis.outliers[k]));
   }
   return text + (diagnosis.outliers.size() > kRowsShown ? " ...\n" : "\n");
 }
 
 std::string NextText(const PoseDiagnosis& diagnosis) {
   bool order = false, posture = false;
-  for (const PoseFinding& finding : diagnosis.findings) {
-    (finding.placed.effect->in_order ? order : posture) = true;
-  }
   std::string text;
+  for (const PoseFinding& finding : diagnosis.findings) {
+    const PoseEffect& effect = *finding.placed.effect;
+    if (IsNamed(finding)) {
+      (effect.in_order ? order : posture) = true;
+    } else {
+      text +=
+          "  to tell what the cause is, measure " + effect.separate_by + "\n";
+    }
+  }
   if (order) {
     text +=
         "  fix what moved and measure again, or calibrate each stretch of "
@@ -197,33 +213,6 @@ std::string NextText(const PoseDiagnosis& diagnosis) {
 
 }  // namespace
 
-std::string PoseSentence(const PoseDiagnosis& diagnosis) {
-  if (diagnosis.verdict == PoseVerdict::kNotTestable) {
-    return "Not testable: " + diagnosis.reason + ".";
-  }
-  const PoseGap& gap = diagnosis.gap;
-  const std::string left = InMillimetres(gap.held_out_after);
-  std::vector<std::string> found;
-  for (const auto& finding : diagnosis.findings) found.push_back(finding.name);
-  const std::string names = Enumeration(found);
-  switch (diagnosis.verdict) {
-    case PoseVerdict::kNoiseFloor:
-      return "The poses show no effect beyond the geometry, which leaves " +
-             left + " of held-out poses.";
-    case PoseVerdict::kUnknown:
-      return "The geometry leaves " + left +
-             " of held-out poses, which is more than noise, and no effect of "
-             "the list explains it.";
-    default:
-      break;
-  }
-  return "The geometry lacks " + names + ": held-out poses are " + left +
-         " rms away instead of " + InMillimetres(gap.held_out_geometry) +
-         (diagnosis.verdict == PoseVerdict::kPartlyExplained
-              ? ", which is still more than noise."
-              : ".");
-}
-
 std::string PoseDiagnosisReport(const Robot& robot,
                                 const PoseMeasurements& measured,
                                 const PoseDiagnosis& diagnosis) {
@@ -233,7 +222,7 @@ std::string PoseDiagnosisReport(const Robot& robot,
   const PoseCampaign campaign = MakeCampaign({robot}, measured, measured.q);
   std::string text = PoseSentence(diagnosis) + "\n";
   if (!diagnosis.findings.empty())
-    text += "\nwhich effect (how probable; values +- one standard deviation)\n";
+    text += "\nwhich effect (how probable; values +- 95 %)\n";
   for (const PoseFinding& finding : diagnosis.findings) {
     text += FindingText(finding, campaign);
   }

@@ -2,6 +2,7 @@
 
 #include "calib/logs/encoder_noise.h"
 #include "calib/poses/load_moment.h"
+#include "calib/poses/pose_label.h"
 #include "model/dynamics/forward_dynamics.h"
 #include "model/robot/kinematics.h"
 
@@ -71,10 +72,9 @@ PoseCampaign MakeCampaign(const KnownArm& arm, const PoseMeasurements& measured,
   campaign.tool_moment = LoadMoments(robot, standing);
   campaign.link_moment = OwnMoments(robot, standing);
   if (arm.weighed) campaign.weight_moment = WeightMoments(robot, standing);
-  campaign.number = measured.number;
-  for (int k = static_cast<int>(campaign.number.size()); k < campaign.size();
-       ++k) {
-    campaign.number.push_back(k + 1);
+  campaign.word = PoseWord(measured);
+  for (int k = 0; k < measured.size(); ++k) {
+    campaign.number.push_back(PoseLabel(measured, k));
   }
   campaign.targets = static_cast<int>(measured.targets.size());
   campaign.whole_poses = measured.poses.size() > 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "model/log_files/pose_reader.h"
@@ -37,8 +38,10 @@ struct PoseCampaign {
   Eigen::MatrixXd tool_moment, link_moment;
   // Of an arm that was weighed: of its weight, N m. Else empty.
   Eigen::MatrixXd weight_moment;
-  std::vector<long> number;  // of each pose, for people
-  int targets = 0;           // 0: whole poses or a wire
+  // What each pose is called for people, and the word before it: pose_label.h.
+  std::vector<long> number;
+  std::string word;
+  int targets = 0;  // 0: whole poses or a wire
   bool whole_poses = false;
   bool wire = false;
 

@@ -31,11 +31,12 @@ std::string PlacedName(const PoseEffect& effect, const PoseCampaign& campaign,
   if (place.by >= 0) name += " with " + joint(place.by);
   if (place.begin < 0) return name;
   if (place.end < 0) {
-    return name + " from pose " + std::to_string(campaign.number[place.begin]) +
-           " on";
+    return name + " from " + campaign.word + " " +
+           std::to_string(campaign.number[place.begin]) + " on";
   }
-  return name + ", poses " + std::to_string(campaign.number[place.begin]) +
-         " to " + std::to_string(campaign.number[place.end - 1]);
+  return name + ", " + campaign.word + "s " +
+         std::to_string(campaign.number[place.begin]) + " to " +
+         std::to_string(campaign.number[place.end - 1]);
 }
 
 }  // namespace armcal

@@ -54,7 +54,7 @@ const poseSections = (data) => {
   const dots = (title, axis, x) => plots.dots(
       title, x.map((at, k) => [at, ...told.lengths[k].map(mm)]).sort((a, b) => a[0] - b[0]), [axis, ...names]);
   const poseOrder = () => is && told && [
-    legend(names), dots('distance between measured and computed, mm', 'pose', told.number),
+    legend(names), dots('distance between measured and computed, mm', told.word, told.number),
     note('Hollow squares: the geometry alone; dots: with the effects. What changes at one pose, or little by little, ' +
          'is of the order; what does not is of the posture.')];
   const poseJoints = () => is && told && told.joints.map((joint, j) => dots(
