@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <iterator>
 
 #include "calib/diagnose/data/thresholds.h"
@@ -50,11 +48,23 @@ int SampleAt(const GapRows& rows, int log, double time) {
   return -1;
 }
 
+// How near to a sample's state another passage may come: as near as the same
+// state is, and as far as the arm goes in half a step, which samples of another
+// passage may be off by.
+double Tolerance(const MatrixXd& states, int sample) {
+  const int before = std::max(0, sample - 1);
+  const int after = std::min(static_cast<int>(states.rows()) - 1, sample + 1);
+  const double step =
+      Distance(states, before, after) / std::max(1, after - before);
+  return Limits().same_state + step / 2;
+}
+
 // The samples nearest to a state, one for each time that the arm comes back to
 // it: of each uninterrupted stretch of near ones outside the event's window.
 std::vector<int> ReturnsTo(const GapRows& rows, int centre,
                            const GapEvent& event) {
   const MatrixXd states = StatesOf(rows);
+  const double tolerance = Tolerance(states, centre);
   std::vector<int> returns;
   for (int s = 0; s < static_cast<int>(rows.segments().size()); ++s) {
     const bool is_own = rows.segments()[s].log == event.contact.log;
@@ -63,7 +73,7 @@ std::vector<int> ReturnsTo(const GapRows& rows, int centre,
       const double distance = Distance(states, k, centre);
       const bool in_window =
           is_own && event.contact.window.Contains(rows.thin_time(s, k));
-      const bool is_near = !in_window && distance <= Limits().same_state;
+      const bool is_near = !in_window && distance <= tolerance;
       if (is_near && !was_near) {
         returns.push_back(k);
       } else if (is_near &&
@@ -115,18 +125,12 @@ std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
   const MatrixXd left =
       regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
   std::vector<GapEvent> kept;
-  std::copy_if(
-      events.begin(), events.end(), std::back_inserter(kept),
-      [&](const GapEvent& event) {
-        if (getenv("PROTO"))
-          fprintf(stderr, "RETURN %.2f j%d pulse %d rest %d share %.3f\n",
-                  event.contact.time, event.contact.joint + 1, event.pulse,
-                  event.at_rest,
-                  ShareThatReturns(regression.rows(), left, event));
-        constexpr double kHalf = .5;
-        return event.at_rest ||
-               ShareThatReturns(regression.rows(), left, event) < kHalf;
-      });
+  std::copy_if(events.begin(), events.end(), std::back_inserter(kept),
+               [&](const GapEvent& event) {
+                 constexpr double kHalf = .5;
+                 return event.at_rest || ShareThatReturns(regression.rows(),
+                                                          left, event) < kHalf;
+               });
   return kept;
 }
 

@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
+#include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
 
 namespace armcal::returning_events_test {
@@ -70,6 +74,55 @@ TEST_F(ReturningEventsTest, ATouchDoesNot) {
 // Pulses as far apart as the periods of a motion that is not repeated.
 TEST_F(NeverAgainTest, WhatCannotReturnIsATouch) {
   EXPECT_EQ(Share({{2, 1}, {7, 1}, {12, 1}, {17, 1}}), 0);
+}
+
+// A 2R arm that repeats a motion of 8 s three times; pushes of 4 N m on the
+// first joint, 3 s into these periods.
+size_t PushesLeft(const std::vector<int>& periods) {
+  const EffectArm arm("2R planar (vertical plane)", 8, .01);
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(2, 10));
+  Motion motion = arm.motion;
+  const auto repeated = [](const MatrixXd& once) {
+    return MatrixXd(once.replicate(3, 1));
+  };
+  motion.q = repeated(arm.motion.q);
+  motion.qd = repeated(arm.motion.qd);
+  motion.qdd = repeated(arm.motion.qdd);
+  motion.stamp_error.resize(0);
+  MatrixXd tau =
+      RecordedTorque(arm.robot, baseline.transitions(), motion).nominal();
+  std::mt19937_64 random(4);
+  const auto record = [&](const std::vector<int>& pushed) {
+    MatrixXd noisy = tau;
+    AddNoise(&random, Eigen::VectorXd::Constant(2, .05), &noisy);
+    for (int k = 0; k < motion.size(); ++k) {
+      for (const int period : pushed) {
+        const double s = (k * motion.dt - 8 * period - 3) / .15;
+        noisy(k, 0) += 4 * std::exp(-s * s);
+      }
+    }
+    return MakeSegment(motion, noisy);
+  };
+  GapSegment reference = record({});
+  reference.log = 1;
+  GapRegression regression(baseline, kBandwidth, {record(periods)},
+                           {reference});
+  regression.Refit();
+  std::vector<GapEvent> events;
+  for (const int period : periods) {
+    const double time = 8 * period + 3;
+    GapEvent event;
+    event.contact.window = {time - .3, time + .3};
+    event.contact.time = time;
+    event.pulse = true;
+    events.push_back(event);
+  }
+  return WithoutReturning(regression, {}, events).size();
+}
+
+TEST(WithoutReturning, LeavesWhatActsOnceInAPeriodicMotion) {
+  EXPECT_EQ(PushesLeft({1}), 1u);
+  EXPECT_EQ(PushesLeft({0, 1, 2}), 0u);
 }
 
 }  // namespace armcal::returning_events_test
