@@ -5,9 +5,9 @@
 #include <iterator>
 #include <limits>
 
+#include "calib/diagnose/data/motion_range.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/maxima_tail.h"
-#include "calib/diagnose/select/motion_range.h"
 #include "calib/diagnose/select/pulses.h"
 
 namespace armcal {

@@ -4,10 +4,10 @@
 
 #include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/data/days.h"
+#include "calib/diagnose/data/motion_range.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/motion_range.h"
 #include "calib/diagnose/select/reference_folds.h"
 #include "calib/diagnose/select/reference_noise.h"
 

@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/motion_range.h"
+#include "calib/diagnose/data/motion_range.h"
 
 #include <algorithm>
 #include <vector>
