@@ -93,8 +93,16 @@ std::string NoiseText(const OutputErrorCalibration& result) {
 void AddIfWorseThanFile(const Robot& robot, const PositionFigures& positions,
                         std::vector<std::string>* sentences) {
   if (positions.validation.size() == 0) return;
+  if (!positions.validation.allFinite()) {
+    sentences->push_back(
+        "with the estimate the loop is unstable on the held-out commands");
+    return;
+  }
+  // A joint that stood still has no noise, and would count for all others.
+  const Eigen::VectorXd noise =
+      positions.noise.cwiseMax(.1 * positions.noise.maxCoeff());
   const auto squares = [&](const Eigen::VectorXd& rms) -> Eigen::ArrayXd {
-    return rms.cwiseQuotient(positions.noise).array().square();
+    return rms.cwiseQuotient(noise).array().square();
   };
   const Eigen::ArrayXd worse =
       squares(positions.validation) - squares(positions.nominal_validation);

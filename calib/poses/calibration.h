@@ -21,7 +21,8 @@ struct PoseCalibrationOptions {
   double prior_length = 0.01;
   double prior_angle = 0.02;
   int folds = 6;  // of the cross-validation
-  // Poses that take no part in the fit, on which it is judged; null: none.
+  // Poses that take no part in the fit: how they are predicted is told, and
+  // decides nothing. Null: none.
   const PoseMeasurements* validation = nullptr;
 };
 
@@ -119,6 +120,8 @@ struct PoseCalibration {
   // geometry than with the file's, m^2, and the standard error of that; poses
   // that both give up, which nothing predicts, are in neither.
   double held_out_excess = 0, held_out_excess_stderr = 0;
+  // Root mean squares of these, with the refined and with the file's, m.
+  double compared_rms = 0, file_compared_rms = 0;
   std::optional<PoseValidation> validation;
   std::vector<int> outliers;  // poses that Tukey's loss gives up
   // Per joint, the share of its motion (of its sum of squares about the mean)

@@ -32,16 +32,29 @@ void CompareWithFile(const PoseFit& fit, const PoseSolution& solution,
   if (finite.empty()) return;
   result->file_held_out_rms = Rms(finite);
   const std::vector<int> pose_of_row = RepeatedPoses(fit.measured().q);
-  const Eigen::RowVectorXd by_row =
-      (predicted.array().square() - by_file.array().square()).rowwise().mean();
-  Eigen::RowVectorXd by_pose = MeansByPose(by_row, pose_of_row);
+  const auto squares_by_pose = [&](const MatrixXd& distances) {
+    const Eigen::RowVectorXd by_row =
+        distances.array().square().rowwise().mean();
+    return Eigen::RowVectorXd(MeansByPose(by_row, pose_of_row));
+  };
+  Eigen::RowVectorXd own = squares_by_pose(predicted),
+                     files = squares_by_pose(by_file);
   if (!result->outliers.empty()) {
     for (const int k : FindOutliers(fit, solution.frame, result->outliers)) {
-      by_pose[pose_of_row[k]] = std::nan("");
+      own[pose_of_row[k]] = files[pose_of_row[k]] = std::nan("");
     }
   }
-  const std::vector<double> more = Finite(by_pose);
+  const std::vector<double> more = Finite(own - files);
   if (more.size() < 2) return;
+  const auto rms = [&](const Eigen::RowVectorXd& squares) {
+    double sum = 0;
+    for (Eigen::Index k = 0; k < squares.size(); ++k) {
+      if (std::isfinite(own[k] - files[k])) sum += squares[k];
+    }
+    return std::sqrt(sum / static_cast<double>(more.size()));
+  };
+  result->compared_rms = rms(own);
+  result->file_compared_rms = rms(files);
   const Eigen::Map<const Eigen::ArrayXd> all(
       more.data(), static_cast<Eigen::Index>(more.size()));
   const double count = static_cast<double>(more.size());

@@ -95,7 +95,7 @@ std::string WorseText(const PoseCalibration& result, const char* unit) {
   return Format(
       "WORSE than the file on poses that were left out: %.3g %s rms against "
       "%.3g %s\n",
-      1e3 * result.held_out_rms, unit, 1e3 * result.file_held_out_rms, unit);
+      1e3 * result.compared_rms, unit, 1e3 * result.file_compared_rms, unit);
 }
 
 // Of poses left out, beside the estimate's own figures.
@@ -270,6 +270,11 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"file_cross_validated_rms",
              result.file_held_out_rms > 0 ? JsonNumber(result.file_held_out_rms)
                                           : json(nullptr)},
+            {"compared",
+             {{"rms", result.compared_rms},
+              {"file_rms", result.file_compared_rms},
+              {"excess", result.held_out_excess},
+              {"excess_stderr", result.held_out_excess_stderr}}},
             {"validation", ValidationJson(result)},
             {"noise_stddev", result.noise.position},
             {"pixel_stddev", measured.pixel_stddev > 0

@@ -106,8 +106,8 @@ bool IsClearlyWorseThanFile(const PoseCalibration& result) {
 
 std::string WorseThanFile(const PoseCalibration& result) {
   return "on poses that were left out the refined geometry is worse (" +
-         Thousandths(result, result.held_out_rms) + " rms) than the file's (" +
-         Thousandths(result, result.file_held_out_rms) +
+         Thousandths(result, result.compared_rms) + " rms) than the file's (" +
+         Thousandths(result, result.file_compared_rms) +
          "): too few poses for so many parameters, or what it gives up as "
          "outliers is not explained by it; measure more poses, or estimate "
          "fewer parameters";
@@ -115,9 +115,11 @@ std::string WorseThanFile(const PoseCalibration& result) {
 
 }  // namespace
 
+// Over poses that not both give up: one gross error would decide otherwise, by
+// whatever little the two predictions differ along it.
 bool IsWorseThanFile(const PoseCalibration& result) {
-  return result.solved && result.refined &&
-         result.held_out_rms > result.file_held_out_rms;
+  return result.solved && result.refined && result.file_held_out_rms > 0 &&
+         result.held_out_excess > 0;
 }
 
 // What makes the geometry useless, or a poor account of what was measured.

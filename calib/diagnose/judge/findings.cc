@@ -88,6 +88,7 @@ class Findings {
                        const MatrixXd& covariance) const;
   FoundEffect Found(size_t k) const;
   void AddMissingTerms(const std::vector<MissingTerm>& terms);
+  bool IsTaken(const FoundEffect& mean) const;
 
   const Robot& robot_;
   const GapFit& fit_;
@@ -173,6 +174,17 @@ void Findings::AddMissingTerms(const std::vector<MissingTerm>& terms) {
   }
 }
 
+// Whether an effect is fitted, or named, at its place already: two laws of one
+// joint have one mean.
+bool Findings::IsTaken(const FoundEffect& mean) const {
+  const auto is_it = [&](const auto& other) {
+    return other.effect == mean.effect && other.joint == mean.joint;
+  };
+  const std::vector<GapCandidate>& fitted = fit_.refined().effects;
+  return std::any_of(fitted.begin(), fitted.end(), is_it) ||
+         std::any_of(result_.effects.begin(), result_.effects.end(), is_it);
+}
+
 // Everything that was fitted is described, sorted by delta_chi2, and joined
 // where a law and its mean are one thing. Then two sieves: what explains
 // nothing that needs explaining (IsNeeded), and what is needed but not sure
@@ -205,7 +217,8 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
     // A law that is likely by itself is not told as its mean.
     const FoundEffect shared = AsSharedMean(found);
     const bool is_itself = shared.effect == found.effect;
-    if (IsClaimed(shared) && (is_itself || !IsClaimed(found))) found = shared;
+    const bool is_free = !IsClaimed(found) && !IsTaken(shared);
+    if (IsClaimed(shared) && (is_itself || is_free)) found = shared;
   }
   const auto unclaimed = std::stable_partition(
       result_.effects.begin(), result_.effects.end(), IsClaimed);

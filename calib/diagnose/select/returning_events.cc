@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "model/signals/standstill.h"
 
 namespace armcal {
 namespace {
@@ -14,7 +15,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Positions and velocities of thinned samples, each joint's over how far it is
-// from its mean as a rule (rms); 0 of joints that rest.
+// from its mean as a rule (rms); 0 of joints that rest, whose noise is no
+// state. Over the root of the number of others, so that a distance is an rms of
+// them.
 MatrixXd StatesOf(const GapRows& rows) {
   std::vector<MatrixXd> fine;
   for (const GapSegment& segment : rows.segments()) {
@@ -24,17 +27,22 @@ MatrixXd StatesOf(const GapRows& rows) {
   }
   MatrixXd states = rows.PickAll(fine);
   states.rowwise() -= states.colwise().mean();
-  for (Index c = 0; c < states.cols(); ++c) {
-    const double rms = std::sqrt(states.col(c).squaredNorm() / states.rows());
-    states.col(c) *= rms > 0 ? 1 / rms : 0;
+  const Index n = states.cols() / 2;
+  const auto rms = [&](Index c) {
+    return std::sqrt(states.col(c).squaredNorm() /
+                     static_cast<double>(states.rows()));
+  };
+  int moving = 0;
+  for (Index j = 0; j < n; ++j) {
+    const bool rests = rms(n + j) < kStandstillSpeed;
+    for (const Index c : {j, n + j}) states.col(c) *= rests ? 0 : 1 / rms(c);
+    moving += !rests;
   }
-  return states;
+  return states / std::sqrt(std::max(1., 2. * moving));
 }
 
-// Root mean square over joints, positions and velocities.
 double Distance(const MatrixXd& states, int a, int b) {
-  return (states.row(a) - states.row(b)).norm() /
-         std::sqrt(static_cast<double>(states.cols()));
+  return (states.row(a) - states.row(b)).norm();
 }
 
 // The thinned sample of a log next to a time; -1: there is none within a step.
@@ -60,7 +68,8 @@ double Tolerance(const MatrixXd& states, int sample) {
 }
 
 // The samples nearest to a state, one for each time that the arm comes back to
-// it: of each uninterrupted stretch of near ones outside the event's window.
+// it: of each uninterrupted stretch of near ones that does not touch the
+// event's window, in which the arm has not yet left the state.
 std::vector<int> ReturnsTo(const GapRows& rows, int centre,
                            const GapEvent& event) {
   const MatrixXd states = StatesOf(rows);
@@ -68,15 +77,21 @@ std::vector<int> ReturnsTo(const GapRows& rows, int centre,
   std::vector<int> returns;
   for (int s = 0; s < static_cast<int>(rows.segments().size()); ++s) {
     const bool is_own = rows.segments()[s].log == event.contact.log;
-    bool was_near = false;
+    bool was_near = false, is_return = false;
     for (int k = rows.thin_begin(s); k < rows.thin_begin(s + 1); ++k) {
       const double distance = Distance(states, k, centre);
       const bool in_window =
           is_own && event.contact.window.Contains(rows.thin_time(s, k));
-      const bool is_near = !in_window && distance <= tolerance;
-      if (is_near && !was_near) {
+      const bool is_near = distance <= tolerance;
+      if (!is_near) {
+        is_return = false;
+      } else if (in_window) {
+        if (is_return) returns.pop_back();
+        is_return = false;
+      } else if (!was_near) {
         returns.push_back(k);
-      } else if (is_near &&
+        is_return = true;
+      } else if (is_return &&
                  distance < Distance(states, returns.back(), centre)) {
         returns.back() = k;
       }

@@ -93,6 +93,32 @@ void LogColumns::Understand(std::vector<std::string> own_names) {
   time_columns_.clear();
   matches_.clear();
   for (int i = 0; i < size(); ++i) Classify(i);
+  if (bare_ == Bare::kPosition) AddBarePositions();
+}
+
+// Of joints whose positions no other column has: what is called as a joint of a
+// portal, x, may be measured.
+void LogColumns::AddBarePositions() {
+  const auto positions = [this](int number) {
+    return std::any_of(matches_.begin(), matches_.end(), [&](const Match& m) {
+      return m.signal == Signal::kPosition && m.number == number;
+    });
+  };
+  for (int number = 1; number <= static_cast<int>(joint_names_.size());
+       ++number) {
+    if (positions(number)) continue;
+    for (int i = 0; i < size(); ++i) {
+      std::string_view unit;
+      const std::string_view base = SplitUnit(own_names_[i], &unit);
+      if (base != joint_names_[number - 1]) continue;
+      Add({i, Signal::kPosition, number, false}, unit);
+    }
+  }
+}
+
+bool LogColumns::IsOfAJoint(int index) const {
+  return std::any_of(matches_.begin(), matches_.end(),
+                     [index](const Match& m) { return m.index == index; });
 }
 
 bool LogColumns::HasPositionsInTime() const {
@@ -113,14 +139,6 @@ void LogColumns::Classify(int index) {
   for (Signal signal : kSignals) {
     const int number = NumberBetween(NamesOf(signal).number_prefix, "", base);
     if (number >= 0) return Add({index, signal, number, true}, unit);
-  }
-  if (bare_ == Bare::kPosition) {
-    const auto joint =
-        std::find(joint_names_.begin(), joint_names_.end(), base);
-    if (joint != joint_names_.end()) {
-      const auto number = static_cast<int>(joint - joint_names_.begin()) + 1;
-      return Add({index, Signal::kPosition, number, false}, unit);
-    }
   }
   const size_t slash = base.rfind('/');
   if (slash == base.npos) return;

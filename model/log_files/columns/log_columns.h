@@ -58,6 +58,8 @@ class LogColumns {
   // Where the header spells names in its own way (SpelledOut) how they were
   // understood, "q is pos_0 to pos_5, tau is ..."; else empty.
   std::string Spelling() const;
+  // Whether a column is a joint's.
+  bool IsOfAJoint(int index) const;
   // What else the file has, which ends messages on missing columns: "; not
   // recognised: ...".
   std::string Unrecognised() const;
@@ -73,6 +75,7 @@ class LogColumns {
   void Understand(std::vector<std::string> own_names);
   bool HasPositionsInTime() const;
   void Classify(int index);
+  void AddBarePositions();
   void Add(Match match, std::string_view unit);
   // The 1-based number of the joint that a path ends with; 0 for none.
   int FindJoint(std::string_view path) const;

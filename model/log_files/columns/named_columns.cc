@@ -34,6 +34,7 @@ LogColumn FindOne(const std::string& file, const LogColumns& columns,
   for (int k = 0; k < columns.size(); ++k) {
     std::string_view text;
     if (Trim(SplitUnit(columns.name(k), &text)) != name) continue;
+    if (columns.IsOfAJoint(k)) continue;
     if (found.index >= 0) {
       throw InputError(file, "row 1", name, "the column is there twice");
     }

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "calib/closed_loop/output_error_report.h"
@@ -221,6 +223,13 @@ TEST(OutputErrorTest, IsNoBetterModelIfTheFileFollowsHeldOutCommands) {
   EXPECT_NE(Shortcomings(result)[0].find("joint1: 0.03 instead of 0.02 rad"),
             std::string::npos)
       << Shortcomings(result)[0];
+  // A joint that stood still sags by .1 mrad.
+  result.positions.noise[1] = 1e-9;
+  result.positions.validation = Eigen::Vector2d(.01, .0201);
+  EXPECT_TRUE(Shortcomings(result).empty());
+  result.positions.validation[0] = std::numeric_limits<double>::infinity();
+  ASSERT_EQ(Shortcomings(result).size(), 1u);
+  EXPECT_NE(Shortcomings(result)[0].find("unstable"), std::string::npos);
   result.positions.validation.resize(0);
   EXPECT_TRUE(Shortcomings(result).empty());
 }
@@ -238,11 +247,13 @@ TEST(OutputErrorTest, NoCommandIsFollowedBeforeItIsGiven) {
   log.log.qref.bottomRows(rows - late) = given;
   const OutputErrorCalibration result =
       CalibrateOutputError(FileOf(truth), controller, {}, {log}, {});
-  for (const PhysicalParameter& p : result.arm.parameters) {
-    if (p.name != "drive.delay") continue;
-    EXPECT_TRUE(p.at_bound);
-    EXPECT_GE(p.value, 0);
-  }
+  const auto& all = result.arm.parameters;
+  const auto delay = std::find_if(
+      all.begin(), all.end(),
+      [](const PhysicalParameter& p) { return p.name == "drive.delay"; });
+  ASSERT_NE(delay, all.end());
+  EXPECT_TRUE(delay->at_bound);
+  EXPECT_GE(delay->value, 0);
 }
 
 }  // namespace armcal::output_error_test

@@ -27,6 +27,20 @@ PoseCalibration Calibrate(const Robot& robot, const PoseMeasurements& m,
   return CalibratePoses(robot, m, options);
 }
 
+// What both give up does not decide, however far it is away.
+TEST(HeldOutFigures, AreComparedWithoutGrossErrors) {
+  PoseCalibration c;
+  c.solved = c.refined = true;
+  c.held_out_rms = .2;  // of one pose a metre off
+  c.file_held_out_rms = .19;
+  c.held_out_excess = -1e-5;
+  EXPECT_FALSE(IsWorseThanFile(c));
+  c.held_out_excess = 1e-5;
+  EXPECT_TRUE(IsWorseThanFile(c));
+  c.file_held_out_rms = 0;  // the file's geometry was not fitted
+  EXPECT_FALSE(IsWorseThanFile(c));
+}
+
 // A file that is right, and errors that are no geometry: the file's base and
 // targets are fitted to the others as the estimate's are, and predict better
 // than what takes 24 parameters from 12 poses.
@@ -56,7 +70,7 @@ TEST(HeldOutFigures, AreJudgedByTheirScatter) {
   c.before_rms = 4e-3;
   c.file_held_out_rms = 5e-3;
   EXPECT_THAT(PoseNotes(c), Not(Contains(HasSubstr("worse"))));
-  c.held_out_rms = 5.5e-3;
+  c.compared_rms = 5.5e-3;
   c.held_out_excess = 1e-6;
   c.held_out_excess_stderr = 2e-6;
   EXPECT_THAT(PoseNotes(c), Contains(HasSubstr("5.5 mm rms")));

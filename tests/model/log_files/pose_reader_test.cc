@@ -166,6 +166,20 @@ TEST(PoseReader, TakesJointsByTheirNamesAlone) {
   EXPECT_EQ(named.q(0, 1), 2);
 }
 
+// A portal's joints are called as what is measured is: a column is one of both.
+TEST(PoseReader, KnowsThePortalsJointsFromItsTool) {
+  const std::string pose =
+      WriteFile("q1,q2,q3,x,y,z,qw,qx,qy,qz\n1,2,3,4,5,6,1,0,0,0\n", "p.csv");
+  const PoseMeasurements whole = ReadPoses(pose, {"x", "y", "z"});
+  EXPECT_EQ(whole.kind(), PoseMeasurements::Kind::kPoses);
+  EXPECT_EQ(whole.q(0, 2), 3);
+  const std::string target =
+      WriteFile("x,y,z,x1,y1,z1\n1,2,3,4,5,6\n", "t.csv");
+  const PoseMeasurements targets = ReadPoses(target, {"x", "y", "z"});
+  EXPECT_EQ(targets.kind(), PoseMeasurements::Kind::kTargets);
+  EXPECT_EQ(targets.q(0, 1), 2);
+}
+
 TEST(PoseReader, ReadsTilts) {
   const std::string path =
       WriteFile("q1,q2,tilt_x[deg],tilt_y[deg],u95_1[deg]\n0,0,30,-45,.01\n",

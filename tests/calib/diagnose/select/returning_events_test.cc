@@ -64,6 +64,22 @@ TEST_F(ReturningEventsTest, ALawReturnsWithTheMotion) {
   EXPECT_NEAR(Share({{2, .4}, {7, 1}, {12, .3}, {17, .2}}), .3, .05);
 }
 
+// A third joint rests, and its position is noise.
+TEST_F(ReturningEventsTest, AJointThatRestsIsInNoState) {
+  Motion& motion = segments_[0].motion;
+  motion.q.conservativeResize(kSize, 3);
+  motion.qd.conservativeResize(kSize, 3);
+  motion.qdd.setZero(kSize, 3);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 1e-5);
+  for (int k = 0; k < kSize; ++k) {
+    motion.q(k, 2) = noise(random);
+    motion.qd(k, 2) = noise(random);
+  }
+  segments_ = {MakeSegment(motion, MatrixXd::Zero(kSize, 3))};
+  EXPECT_NEAR(Share({{2, 1}, {7, 1}, {12, 1}, {17, 1}}), 1, .05);
+}
+
 TEST_F(ReturningEventsTest, ATouchDoesNot) {
   EXPECT_NEAR(Share({{7, 1}}), 0, .01);
   // Nor do others, at other times or the other way.
