@@ -87,6 +87,7 @@ class Calibrator {
     Approach();
     Iterate(false, &windows_);
     if (!result_.arm.solved) return result_;
+    x_ = unknowns_->ToBounds(x_);
     result_.values = unknowns_->At(x_);
     result_.arm.robot = result_.values.arm.robot;
     result_.positions.calibrated = windows_.ResidualRms(run_);
@@ -257,8 +258,7 @@ void Calibrator::Report() {
     out.held = !unknowns_->is_free(k);
     out.geometry = false;
     out.identifiable = !out.held && untrusted[k] < 2 * trusted[k];
-    out.at_bound = !out.held && unknowns_->is_positive(k) &&
-                   x_[k] < unknowns_->least(k) + 1e-6 * unknowns_->prior(k);
+    out.at_bound = unknowns_->IsAtBound(k, x_);
     out.stddev = out.identifiable ? std::sqrt(raised(k, k))
                                   : std::numeric_limits<double>::infinity();
     arm.parameters.push_back(out);

@@ -47,6 +47,18 @@ class LoopUnknowns {
   bool exists(int k) const { return !names_[k].empty(); }
   bool is_positive(int k) const { return least_[k] >= 0; }
   double least(int k) const { return least_[k]; }  // -1: any value
+  // Whether a value is at its bound, which an interior point comes near and
+  // does not reach: within 1e-5 of the prior's deviation.
+  bool IsAtBound(int k, const Eigen::VectorXd& x) const {
+    return is_free(k) && is_positive(k) && x[k] < least(k) + 1e-5 * prior(k);
+  }
+  // Values that are, exactly: no delay is none, and not 20 ns.
+  Eigen::VectorXd ToBounds(Eigen::VectorXd x) const {
+    for (int k = 0; k < size(); ++k) {
+      if (IsAtBound(k, x)) x[k] = least(k);
+    }
+    return x;
+  }
   const Eigen::VectorXd& nominal() const { return nominal_; }
   std::vector<int> FreeIndices() const;
 

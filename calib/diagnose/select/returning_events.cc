@@ -112,11 +112,11 @@ double MeanAbout(const GapRows& rows, const VectorXd& left, int sample,
 
 }  // namespace
 
-double ShareThatReturns(const GapRows& rows, const MatrixXd& left,
-                        const GapEvent& event) {
+Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
+                          const GapEvent& event) {
   const Contact& contact = ToldContact(event);
   const int centre = SampleAt(rows, contact.log, contact.time);
-  if (centre < 0) return 0;
+  if (centre < 0) return {};
   const double core = (contact.window.end - contact.window.begin) / 4;
   const int reach = static_cast<int>(core / rows.step(rows.SegmentOf(centre)));
   const VectorXd torque = left.col(contact.joint);
@@ -129,7 +129,8 @@ double ShareThatReturns(const GapRows& rows, const MatrixXd& left,
     sum += there;
     ++count;
   }
-  return count > 0 && own != 0 && std::isfinite(own) ? sum / (count * own) : 0;
+  if (!std::isfinite(own)) return {};
+  return {own, count > 0 ? sum / count : 0};
 }
 
 std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
@@ -139,13 +140,25 @@ std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
   const JointRows torque = regression.TorqueOf(effects);
   const MatrixXd left =
       regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
+  constexpr double kHalf = .5;
+  double own = 0, returned = 0;
+  for (const GapEvent& event : events) {
+    if (event.at_rest) continue;
+    const Returning torque = ReturningTorque(regression.rows(), left, event);
+    const double noise =
+        regression.noise().joints[event.contact.joint].stddev();
+    own += std::pow(torque.own / noise, 2);
+    returned += torque.own * torque.returned / (noise * noise);
+  }
+  if (!(returned > kHalf * own)) return events;
   std::vector<GapEvent> kept;
-  std::copy_if(events.begin(), events.end(), std::back_inserter(kept),
-               [&](const GapEvent& event) {
-                 constexpr double kHalf = .5;
-                 return event.at_rest || ShareThatReturns(regression.rows(),
-                                                          left, event) < kHalf;
-               });
+  std::copy_if(
+      events.begin(), events.end(), std::back_inserter(kept),
+      [&](const GapEvent& event) {
+        return event.at_rest ||
+               !(ReturningTorque(regression.rows(), left, event).Share() >
+                 kHalf);
+      });
   return kept;
 }
 

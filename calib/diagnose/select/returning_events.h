@@ -13,16 +13,24 @@ namespace armcal {
 // does not wait for the arm. Where it came back within Limits().same_state, the
 // torque that is left is asked of both.
 
-// How much of an event's torque, on the joint that felt it most, is left where
-// the arm comes back to the state of its peak: the mean over these times, each
-// over the core of the event's window (its middle half), over the event's own.
-// 1: all of it; 0: none, or the arm never comes back. `left`: thinned samples x
-// joints, what model and effects leave.
-double ShareThatReturns(const GapRows& rows, const Eigen::MatrixXd& left,
-                        const GapEvent& event);
+// An event's torque on the joint that felt it most, N m or N, and what of it is
+// left where the arm comes back to the state of its peak: means over the core
+// of the event's window (its middle half), and over these times.
+struct Returning {
+  double own = 0;
+  double returned = 0;  // 0 where the arm never comes back
 
-// Those events in motion of which less than half returns with the state; at
-// rest a joint's friction holds what it held before.
+  // 1: all of it; 0: none.
+  double Share() const { return own != 0 ? returned / own : 0; }
+};
+// `left`: thinned samples x joints, what model and effects leave.
+Returning ReturningTorque(const GapRows& rows, const Eigen::MatrixXd& left,
+                          const GapEvent& event);
+
+// All events, unless more than half of their torque returns with the state (all
+// of them together, in units of the joints' noise: single ones may be parts of
+// a push, and next to nothing by themselves); then those of which half does
+// not, and those at rest, where a joint's friction holds what it held before.
 std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
                                        const std::vector<GapCandidate>& effects,
                                        const std::vector<GapEvent>& events);

@@ -48,7 +48,7 @@ class ReturningEventsTest : public testing::Test {
     event.contact.window = {6.7, 7.3};
     event.contact.time = 7;
     event.contact.joint = 1;
-    return ShareThatReturns(rows, left, event);
+    return ReturningTorque(rows, left, event).Share();
   }
 
   std::vector<GapSegment> segments_;
