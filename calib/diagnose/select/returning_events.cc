@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "calib/diagnose/data/thresholds.h"
 #include "model/signals/standstill.h"
@@ -141,24 +140,22 @@ std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
   const MatrixXd left =
       regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
   constexpr double kHalf = .5;
+  std::vector<Returning> torques;
   double own = 0, returned = 0;
   for (const GapEvent& event : events) {
-    if (event.at_rest) continue;
-    const Returning torque = ReturningTorque(regression.rows(), left, event);
+    torques.push_back(event.at_rest
+                          ? Returning()
+                          : ReturningTorque(regression.rows(), left, event));
     const double noise =
         regression.noise().joints[event.contact.joint].stddev();
-    own += std::pow(torque.own / noise, 2);
-    returned += torque.own * torque.returned / (noise * noise);
+    own += std::pow(torques.back().own / noise, 2);
+    returned += torques.back().own * torques.back().returned / (noise * noise);
   }
   if (!(returned > kHalf * own)) return events;
   std::vector<GapEvent> kept;
-  std::copy_if(
-      events.begin(), events.end(), std::back_inserter(kept),
-      [&](const GapEvent& event) {
-        return event.at_rest ||
-               !(ReturningTorque(regression.rows(), left, event).Share() >
-                 kHalf);
-      });
+  for (size_t k = 0; k < events.size(); ++k) {
+    if (!(torques[k].Share() > kHalf)) kept.push_back(events[k]);
+  }
   return kept;
 }
 
