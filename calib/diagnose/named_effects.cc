@@ -35,7 +35,7 @@ struct Named {
 
   void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
     would_show |= found.gain.IsNone();
-    names.push_back(diagnosis.has_reference
+    names.push_back(diagnosis.has_reference || IsTakenOff(found)
                         ? ChangeOf(found, diagnosis)
                         : NameOf(*found.effect, found.joint, diagnosis));
     least = std::min(least, found.probability);

@@ -1,15 +1,31 @@
 #include "calib/diagnose/names.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/text/format.h"
 
 namespace armcal {
 namespace {
 
-// Whether a sign of the effect's first estimate says which way it goes. With
-// several linear parameters (a payload's mass and moments, a sine and a cosine)
-// there is no such way, and one that cannot be negative has only one.
+// Whether an effect is a body: its inertia has the sign of its mass.
+bool IsBody(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& parameter) {
+                       return parameter.sign == EffectParameter::Sign::kAsFirst;
+                     });
+}
+
+// Whether the sign of the first estimate is known, with 95 %: joints may tell a
+// body's moment alone and leave its mass open.
+bool IsSignKnown(const FoundEffect& found) {
+  return !found.estimates.empty() && !found.stddev.empty() &&
+         std::abs(found.estimates[0].value) > 2 * found.stddev[0];
+}
+
+// Whether a sign of the effect's first estimate says which way it goes. Several
+// linear parameters (a sine and a cosine) have no such way, but those of a body
+// do; one that cannot be negative has only one.
 bool HasDirection(const FoundEffect& found) {
   using Parameter = EffectParameter;
   const std::vector<Parameter>& all = found.effect->parameters;
@@ -17,9 +33,12 @@ bool HasDirection(const FoundEffect& found) {
     return parameter.search == Parameter::Search::kLinear;
   };
   const auto first = std::find_if(all.begin(), all.end(), is_linear);
-  return std::count_if(all.begin(), all.end(), is_linear) == 1 &&
-         first->sign == Parameter::Sign::kFree && !found.estimates.empty() &&
-         found.estimates[0].value != 0;
+  const bool has_one_size =
+      IsBody(*found.effect)
+          ? IsSignKnown(found)
+          : std::count_if(all.begin(), all.end(), is_linear) == 1;
+  return has_one_size && first->sign == Parameter::Sign::kFree &&
+         !found.estimates.empty() && found.estimates[0].value != 0;
 }
 
 }  // namespace
@@ -46,6 +65,11 @@ std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   const bool is_amount = found.effect->joint_term.has_value();
   if (size.value > 0) return (is_amount ? "more " : "larger ") + name;
   return (is_amount ? "less " : "smaller ") + name;
+}
+
+bool IsTakenOff(const FoundEffect& found) {
+  return IsBody(*found.effect) && HasDirection(found) &&
+         found.estimates[0].value < 0;
 }
 
 std::string SinceWhat(const GapDiagnosis& diagnosis) {

@@ -13,10 +13,13 @@ std::string NameOf(const Effect& effect, int joint,
 
 // The same of an effect that is a change since a reference, with its direction
 // where the effect has one, which is where it has a single linear parameter of
-// either sign. What adds to a number that any robot has is told as more or less
+// either sign, or is a body that was added or taken off. What adds to a number that any robot has is told as more or less
 // of that ("less coulomb friction on elbow"), anything else with its signed
-// size ("torque gain on elbow (-0.08)").
+// size ("torque gain on elbow (-0.08)", "payload (-0.5 kg)").
 std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis);
+
+// Whether it is a body that the robot lacks and the model has.
+bool IsTakenOff(const FoundEffect& found);
 
 // What changes are told since: "the reference" or "the calibration"; empty: the
 // robot file, since which nothing is said to have changed.

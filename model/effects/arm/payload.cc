@@ -22,7 +22,7 @@ bool IsOnTheOnlyAxis(const Robot& robot) {
 double Mass(const Robot& robot, const Eigen::VectorXd& p) {
   if (!IsOnTheOnlyAxis(robot)) return p[0];
   const Eigen::Vector3d h_M = robot.links[0].X_ML.linear() * p.segment<3>(1);
-  return p[0] > 0 ? h_M.head<2>().squaredNorm() / p[0] : 0;
+  return p[0] != 0 ? h_M.head<2>().squaredNorm() / p[0] : 0;
 }
 
 // In the last link's frame.
@@ -56,11 +56,12 @@ bool IsCarried(const EffectSite& site,
 
 }  // namespace
 
-// A body on the tool: its mass, its first moments hx hy hz about the tool
-// frame's origin, in the last link's axes, and the inertia about its own
-// centre, taken as the same about all axes; but of a pendulum with the tool's
-// frame on its axis, where the first parameter is the inertia about that over 1
-// m^2, in the place of the mass, and the last is nothing.
+// A body on the tool, or one that was taken off, which has a negative mass: its
+// mass, its first moments hx hy hz about the tool frame's origin, in the last
+// link's axes, and the inertia about its own centre, taken as the same about
+// all axes; but of a pendulum with the tool's frame on its axis, where the
+// first parameter is the inertia about that over 1 m^2, in the place of the
+// mass, and the last is nothing.
 Effect Payload() {
   Effect effect;
   effect.name = "payload";
@@ -79,10 +80,9 @@ Effect Payload() {
     return kRadius * kRadius * mass(site);
   };
   effect.parameters = {
-      Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
-      Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
-      Linear("hz", "kg m", moment),
-      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kPositive)};
+      Linear("mass", "kg", mass), Linear("hx", "kg m", moment),
+      Linear("hy", "kg m", moment), Linear("hz", "kg m", moment),
+      Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kAsFirst)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     InertialParameters payload;

@@ -18,15 +18,17 @@ TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
   FoundEffect friction = MakeFound("coulomb_friction", 1);
   friction.estimates = {{"coulomb", "N m", -.08}};
   diagnosis.effects = {MakeFound("payload", -1), friction};
+  diagnosis.effects[0].estimates[0] = {"mass", "kg", 1.25};
   EXPECT_EQ(BriefReport(diagnosis),
-            "Changed since the reference: payload and less coulomb friction "
+            "Changed since the reference: payload (+1.2 kg) and less coulomb "
+            "friction "
             "on elbow, which removes 93 % of the gap that refitting leaves on "
             "held-out data.");
   diagnosis.effects[1].estimates[0].value = .08;
   diagnosis.effects[1].probability = .6;
   EXPECT_THAT(BriefReport(diagnosis),
-              HasSubstr("Probably changed since the reference: payload and "
-                        "more coulomb friction on elbow, which"));
+              HasSubstr("Probably changed since the reference: payload "
+                        "(+1.2 kg) and more coulomb friction on elbow, which"));
   diagnosis.effects[1].probability = .5;
   EXPECT_THAT(BriefReport(diagnosis),
               HasSubstr("May have changed since the reference: payload"));
@@ -36,6 +38,15 @@ TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
               testing::AllOf(HasSubstr("Something touched the arm 2 times. May "
                                        "have changed since the reference: "),
                              testing::EndsWith("; something else is left.")));
+}
+
+// A body that the file has and the robot lacks is told as one taken off.
+TEST(NamedEffects, TellsWhatWasTakenOff) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects = {MakeFound("payload", -1)};
+  diagnosis.effects[0].estimates[0] = {"mass", "kg", -1.25};
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("The model lacks payload (-1.2 kg), which"));
 }
 
 // A calibration's own logs are a reference; where they have the effect as well

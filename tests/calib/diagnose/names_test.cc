@@ -35,10 +35,28 @@ TEST(ChangeOf, TellsOtherSignsWithTheSize) {
   EXPECT_EQ(Told("delay", -1, "s", -.002), "delay (-0.002 s)");
 }
 
-// A payload is a mass and where it is, a ripple a sine and a cosine; a play
-// cannot be negative. Nothing is said of what is not known either.
+// A body was added or taken off where its mass is known to that much; joints
+// may tell its moment alone.
+TEST(ChangeOf, TellsBodiesWithTheirMass) {
+  FoundEffect found = MakeFound("payload", -1);
+  found.estimates[0] = {"mass", "kg", -.48};
+  found.stddev = {.05};
+  EXPECT_EQ(ChangeOf(found, SampleDiagnosis()), "payload (-0.48 kg)");
+  EXPECT_TRUE(IsTakenOff(found));
+  found.stddev = {.3};
+  EXPECT_EQ(ChangeOf(found, SampleDiagnosis()), "payload");
+  EXPECT_FALSE(IsTakenOff(found));
+  found.effect = FindEffect("added_mass");
+  found.joint = 1;
+  found.estimates[0].value = 1.5;
+  EXPECT_EQ(ChangeOf(found, SampleDiagnosis()),
+            "added mass on elbow (+1.5 kg)");
+  EXPECT_FALSE(IsTakenOff(found));
+}
+
+// A ripple is a sine and a cosine; a play cannot be negative. Nothing is said
+// of what is not known either.
 TEST(ChangeOf, TellsNoDirectionWhereThereIsNone) {
-  EXPECT_EQ(Told("payload", -1, "kg", -1), "payload");
   EXPECT_EQ(Told("torque_ripple", 1, "N m", 1), "torque ripple on elbow");
   EXPECT_EQ(Told("backlash", 1, "rad", .01), "backlash on elbow");
   EXPECT_EQ(Told("coulomb_friction", 1, "N m", 0), "coulomb friction on elbow");

@@ -67,6 +67,19 @@ TEST_F(GapReferenceTest, WhatItsLogShowedIsNoChange) {
   EXPECT_EQ(diagnosis.shown[0].effect->name, "quadratic_friction");
 }
 
+// The reference carried a tool, which was taken off.
+TEST_F(GapReferenceTest, WhatWasTakenOffHasANegativeMass) {
+  std::vector<double> p(FindEffect("payload")->parameters.size(), 0);
+  p[0] = .3;  // kg
+  AddAlways("payload", -1, p);
+  p[0] = -.3;
+  Add("payload", -1, p);
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ExpectFirst(diagnosis, "payload", -1);
+  ExpectEstimate(diagnosis.effects[0], "mass", -.3, .02);
+  EXPECT_EQ(diagnosis.effects.size(), 1u);
+}
+
 // Friction is never the same on another day: that is said, and is no effect.
 TEST_F(GapReferenceTest, FrictionOfTheDayIsSaidNotBlamed) {
   const double change = .08;  // of 1.5 N m
