@@ -392,16 +392,15 @@ void Diagnoser::Judge() {
     }
     return;
   }
-  double left = 0;
-  for (const JointGap& joint : result_.joints) left += joint.unexplained;
   GapFacts facts;
+  for (const JointGap& joint : result_.joints) facts.left += joint.unexplained;
   facts.torque = result_.torque;
   for (const FoundEffect& found : result_.effects) {
     if (found.of_another_day) continue;
     facts.effects = true;
   }
   facts.found_without_name = found_without_name_;
-  facts.left = left;
+  facts.since_reference = result_.has_reference;
   facts.left_share = result_.unexplained.share;
   result_.verdict = JudgeGap(facts);
 }

@@ -156,6 +156,13 @@ std::string AbsorbedSince(const GapDiagnosis& diagnosis) {
                        "alone.";
 }
 
+// Effects that remove most of the gap may leave much more than noise:
+// "; 16 times the noise's mean square is left".
+std::string StillLeft(const GapDiagnosis& diagnosis) {
+  if (!(diagnosis.torque.after >= kNoisy)) return "";
+  return "; " + OfNoise(diagnosis.torque.after) + " is left";
+}
+
 // What is left given what has changed together.
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
@@ -183,7 +190,7 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
              "parameters brings it down to " +
              OfNoise(diagnosis.torque.refit) + ".";
     case GapVerdict::kExplained:
-      return NamedEffects(diagnosis) + ".";
+      return NamedEffects(diagnosis) + StillLeft(diagnosis) + ".";
     case GapVerdict::kPartlyExplained:
       return NamedEffects(diagnosis) + "; something else is left.";
     case GapVerdict::kUnknown:

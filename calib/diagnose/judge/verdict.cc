@@ -22,13 +22,15 @@ double UnexplainedOf(const JointLeft& left) {
 // Limits().left of the noise and of their gap. A refit that leaves half of what
 // the file left absorbed it: numbers of the file, not a law, were the reason.
 // Without held-out data nothing can be confirmed, and what was found is `partly
-// explained` at best.
+// explained` at best; more than the noise of a reference, which was told in
+// other motions than these, is then no change.
 GapVerdict JudgeGap(const GapFacts& facts) {
   const bool much_left =
       facts.left > Limits().real && facts.left_share > Limits().left;
   if (!facts.torque.known()) {
     if (facts.effects) return GapVerdict::kPartlyExplained;
-    const bool unknown = much_left || facts.found_without_name;
+    const bool unknown =
+        (much_left && !facts.since_reference) || facts.found_without_name;
     return unknown ? GapVerdict::kUnknown : GapVerdict::kNotTestable;
   }
   const double after = facts.torque.after - 1;

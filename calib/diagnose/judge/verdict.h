@@ -33,6 +33,7 @@ struct GapFacts {
   GapFigures torque;  // of held-out data, in units of the floor
   bool effects = false;
   bool found_without_name = false;
+  bool since_reference = false;  // the question is what has changed since
   double left = 0;        // chi^2 beyond the noise's in sample, all joints
   double left_share = 0;  // of what a refit leaves beyond the noise
 };

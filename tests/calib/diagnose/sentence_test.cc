@@ -72,6 +72,16 @@ TEST(BriefReport, TellsWhatTermsAndWhatOtherEffectsRemove) {
             "refitting leaves on held-out data.");
 }
 
+TEST(BriefReport, SaysHowMuchEffectsLeaveThatRemoveMostOfIt) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.torque.after = 16;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("leaves on held-out data; 16 times the noise's mean "
+                        "square is left."));
+  diagnosis.torque.after = 1.9;
+  EXPECT_THAT(BriefReport(diagnosis), HasSubstr("on held-out data."));
+}
+
 TEST(BriefReport, SaysWhatItCannotName) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.clear();

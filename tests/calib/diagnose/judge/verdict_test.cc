@@ -85,6 +85,11 @@ TEST(JudgeGap, ThirtyPercentMayBeLeft) {
 TEST(JudgeGap, NothingHeldOutIsNoAgreement) {
   GapFacts facts;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kNotTestable);
+  facts.left_share = .9;
+  facts.left = 1000;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
+  facts.since_reference = true;
+  EXPECT_EQ(JudgeGap(facts), GapVerdict::kNotTestable);
   facts.found_without_name = true;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
   facts.effects = true;
