@@ -129,32 +129,50 @@ Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
     ++count;
   }
   if (!std::isfinite(own)) return {};
-  return {own, count > 0 ? sum / count : 0};
+  return {own, count > 0 ? sum / count : 0, count};
+}
+
+bool Returns(const std::vector<Returning>& torques) {
+  constexpr double kHalf = .5;
+  double own = 0, left = 0;
+  for (const Returning& torque : torques) {
+    own += torque.own * torque.own;
+    left += std::pow(torque.own - torque.returned, 2);
+  }
+  return left < kHalf * kHalf * own;
+}
+
+std::vector<Returning> ReturningTorques(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events) {
+  const JointRows torque = regression.TorqueOf(effects);
+  const MatrixXd left =
+      regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
+  std::vector<Returning> torques;
+  for (const GapEvent& event : events) {
+    if (event.at_rest) {
+      torques.emplace_back();
+      continue;
+    }
+    Returning one = ReturningTorque(regression.rows(), left, event);
+    const int joint = ToldContact(event).joint;
+    one.own /= regression.noise().joints[joint].stddev();
+    one.returned /= regression.noise().joints[joint].stddev();
+    torques.push_back(one);
+  }
+  return torques;
 }
 
 std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
                                        const std::vector<GapCandidate>& effects,
                                        const std::vector<GapEvent>& events) {
   if (events.empty()) return events;
-  const JointRows torque = regression.TorqueOf(effects);
-  const MatrixXd left =
-      regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
-  constexpr double kHalf = .5;
-  std::vector<Returning> torques;
-  double own = 0, returned = 0;
-  for (const GapEvent& event : events) {
-    torques.push_back(event.at_rest
-                          ? Returning()
-                          : ReturningTorque(regression.rows(), left, event));
-    const double noise =
-        regression.noise().joints[event.contact.joint].stddev();
-    own += std::pow(torques.back().own / noise, 2);
-    returned += torques.back().own * torques.back().returned / (noise * noise);
-  }
-  if (!(returned > kHalf * own)) return events;
+  const std::vector<Returning> torques =
+      ReturningTorques(regression, effects, events);
+  if (!Returns(torques)) return events;
   std::vector<GapEvent> kept;
   for (size_t k = 0; k < events.size(); ++k) {
-    if (!(torques[k].Share() > kHalf)) kept.push_back(events[k]);
+    if (!Returns({torques[k]})) kept.push_back(events[k]);
   }
   return kept;
 }

@@ -13,24 +13,31 @@ namespace armcal {
 // does not wait for the arm. Where it came back within Limits().same_state, the
 // torque that is left is asked of both.
 
-// An event's torque on the joint that felt it most, N m or N, and what of it is
-// left where the arm comes back to the state of its peak: means over the core
-// of the event's window (its middle half), and over these times.
+// An event's torque on the joint that felt it most, and what of it is left
+// where the arm comes back to the state of its peak: means over the core of the
+// event's window (its middle half), and over these times.
 struct Returning {
   double own = 0;
   double returned = 0;  // 0 where the arm never comes back
-
-  // 1: all of it; 0: none.
-  double Share() const { return own != 0 ? returned / own : 0; }
+  int times = 0;        // that it does
 };
-// `left`: thinned samples x joints, what model and effects leave.
+// In N m or N. `left`: thinned samples x joints, what model and effects leave.
 Returning ReturningTorque(const GapRows& rows, const Eigen::MatrixXd& left,
                           const GapEvent& event);
+// Of each event, in units of the joint's noise; 0 of those at rest, where a
+// joint's friction holds what it held before.
+std::vector<Returning> ReturningTorques(
+    const GapRegression& regression, const std::vector<GapCandidate>& effects,
+    const std::vector<GapEvent>& events);
 
-// All events, unless more than half of their torque returns with the state (all
-// of them together, in units of the joints' noise: single ones may be parts of
-// a push, and next to nothing by themselves); then those of which half does
-// not, and those at rest, where a joint's friction holds what it held before.
+// Whether these torques are those of a law: what returns is nearer to them than
+// nothing is, which a law predicts and a touch does not. Taken away it leaves
+// less than half of them, rms; twice the torque would be no return either.
+bool Returns(const std::vector<Returning>& torques);
+
+// All events, unless their torque returns with the state (all of them together:
+// single ones may be parts of a push, and next to nothing by themselves); then
+// those that by themselves do not return.
 std::vector<GapEvent> WithoutReturning(const GapRegression& regression,
                                        const std::vector<GapCandidate>& effects,
                                        const std::vector<GapEvent>& events);

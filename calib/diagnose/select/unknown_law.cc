@@ -11,6 +11,7 @@
 #include "calib/diagnose/data/segment.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/pulses.h"
+#include "calib/diagnose/select/returning_events.h"
 
 namespace armcal {
 namespace {
@@ -201,6 +202,16 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
   return found;
 }
 
+bool IsLawRefuted(const std::vector<GapEvent>& events,
+                  const std::vector<Returning>& torques, int joint) {
+  std::vector<Returning> of_joint;
+  for (size_t k = 0; k < events.size(); ++k) {
+    if (!events[k].pulse || events[k].contact.joint != joint) continue;
+    if (torques[k].times > 0) of_joint.push_back(torques[k]);
+  }
+  return !of_joint.empty() && !Returns(of_joint);
+}
+
 std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
     const GapRegression& regression, const std::vector<GapCandidate>& effects,
     const std::vector<GapEvent>& events) {
@@ -208,10 +219,13 @@ std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
   if (std::none_of(events.begin(), events.end(), is_pulse)) return events;
   const std::vector<int> joints =
       JointsWithUnknownLaw(regression, effects, events);
+  const std::vector<Returning> torques =
+      ReturningTorques(regression, effects, events);
   std::vector<GapEvent> kept;
   for (const GapEvent& event : events) {
     const bool of_law =
-        std::count(joints.begin(), joints.end(), event.contact.joint) > 0;
+        std::count(joints.begin(), joints.end(), event.contact.joint) > 0 &&
+        !IsLawRefuted(events, torques, event.contact.joint);
     if (!event.pulse || !of_law) kept.push_back(event);
   }
   return kept;

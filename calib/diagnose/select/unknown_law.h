@@ -7,6 +7,7 @@
 #include "calib/diagnose/select/events.h"
 #include "calib/diagnose/select/evidence_noise.h"
 #include "calib/diagnose/select/regression.h"
+#include "calib/diagnose/select/returning_events.h"
 
 namespace armcal {
 
@@ -43,7 +44,12 @@ double UnknownLawOdds(const GapScreen& screen,
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events);
-// The events without the pulses on these joints.
+// Whether the arm came back to where pulses were felt on a joint, and they were
+// not there again: then no law of its state made them. `torques`: of each event
+// (ReturningTorques).
+bool IsLawRefuted(const std::vector<GapEvent>& events,
+                  const std::vector<Returning>& torques, int joint);
+// The events without the pulses on those of these joints on which it is not.
 std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
     const GapRegression& regression, const std::vector<GapCandidate>& effects,
     const std::vector<GapEvent>& events);

@@ -48,7 +48,8 @@ class ReturningEventsTest : public testing::Test {
     event.contact.window = {6.7, 7.3};
     event.contact.time = 7;
     event.contact.joint = 1;
-    return ReturningTorque(rows, left, event).Share();
+    const Returning torque = ReturningTorque(rows, left, event);
+    return torque.returned / torque.own;
   }
 
   std::vector<GapSegment> segments_;
@@ -134,6 +135,20 @@ size_t PushesLeft(const std::vector<int>& periods) {
     events.push_back(event);
   }
   return WithoutReturning(regression, {}, events).size();
+}
+
+// As much as before is a law's, and nothing a touch's; which is nearer, a law
+// foretells of many together.
+TEST(Returns, IsNearerToAllOfItThanToNothing) {
+  for (const double back : {.6, 1., 1.4}) {
+    EXPECT_TRUE(Returns({{-3, -3 * back, 1}})) << back;
+  }
+  for (const double back : {-1., 0., .4, 1.6, 2.2}) {
+    EXPECT_FALSE(Returns({{-3, -3 * back, 1}})) << back;
+  }
+  EXPECT_FALSE(Returns({}));
+  EXPECT_TRUE(Returns({{6, 6, 2}, {-5, -5, 2}, {1, 0, 1}}));
+  EXPECT_FALSE(Returns({{6, 6, 2}, {-5, 0, 2}, {1, 1, 1}}));
 }
 
 TEST(WithoutReturning, LeavesWhatActsOnceInAPeriodicMotion) {

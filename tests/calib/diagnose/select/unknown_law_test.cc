@@ -113,4 +113,22 @@ TEST_F(UnknownLawTest, APulseHasToOutweighItsPlaces) {
   EXPECT_NEAR(many - few, 2 * std::log(kPlaces), 1e-9);
 }
 
+// Pulses on the second of two joints: back where the first one was, the arm
+// felt nothing. Where it never came back nothing is refuted, nor by what is no
+// pulse.
+TEST(IsLawRefuted, WhereTheArmCameBackAndFeltNothing) {
+  std::vector<GapEvent> events(3);
+  for (GapEvent& event : events) {
+    event.pulse = true;
+    event.contact.joint = 1;
+  }
+  const Returning never = {5, 0, 0}, again = {5, 4.5, 2}, nothing = {5, .2, 1};
+  EXPECT_TRUE(IsLawRefuted(events, {nothing, never, never}, 1));
+  EXPECT_FALSE(IsLawRefuted(events, {nothing, never, never}, 0));
+  EXPECT_FALSE(IsLawRefuted(events, {again, again, never}, 1));
+  EXPECT_FALSE(IsLawRefuted(events, {never, never, never}, 1));
+  events[0].pulse = false;
+  EXPECT_FALSE(IsLawRefuted(events, {nothing, never, again}, 1));
+}
+
 }  // namespace armcal::unknown_law_test
