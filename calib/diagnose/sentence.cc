@@ -70,10 +70,14 @@ bool ExplainsLessThanItLeaves(const GapDiagnosis& diagnosis) {
 }
 
 // To agree within noise means as little as there is much of it: its largest
-// share of a joint's recorded torque, rms over rms.
+// share of a joint's recorded torque, rms over rms. Noise that nothing tells
+// but what a refit leaves holds what the model lacks as well, and is called so.
 std::string Agreement(const GapDiagnosis& diagnosis) {
+  const bool is_assumed = diagnosis.floor == NoiseFloor::kAssumed;
   const std::string agrees =
-      "The model agrees with the log to within the noise";
+      std::string("The model agrees with the log to within ") +
+      (is_assumed ? "what a refit leaves, which is taken for noise"
+                  : "the noise");
   double most = 0;
   std::string joint;
   for (const JointGap& gap : diagnosis.joints) {

@@ -113,6 +113,7 @@ class MissingTermFit {
     }
     Weigh();
     if (sign == Sign::kPositive) RemoveNegative();
+    RemoveUnasked();
   }
 
   // Terms that the logs ask for, and the file's robot with them. A joint whose
@@ -125,7 +126,7 @@ class MissingTermFit {
     result.without = Left(0);
     for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
       const MissingTerm term = Term(f);
-      const bool is_missing = term.delta_chi2 > LeastDeltaChi2(term);
+      const bool is_missing = IsAskedFor(term);
       for (int j = 0; j < robot_.num_joints(); ++j) {
         const double least = 1e-6 * candidates_[CandidateOf(f, j)].size[0];
         *TermOf(term.joint_term, &result.robot.links[j].joint) =
@@ -147,9 +148,7 @@ class MissingTermFit {
     std::vector<JointTerm> contradicted;
     for (int f = 0; f < all; ++f) {
       const MissingTerm term = Term(f);
-      if (term.delta_chi2 > LeastDeltaChi2(term)) {
-        contradicted.push_back(term.joint_term);
-      }
+      if (IsAskedFor(term)) contradicted.push_back(term.joint_term);
     }
     return contradicted;
   }
@@ -188,6 +187,36 @@ class MissingTermFit {
       if (most < 0) return;
       none_.insert(most);
     }
+  }
+
+  // Backward elimination: the term that is asked for the least goes first, and
+  // the others are asked again without it. Of two that a motion hardly tells
+  // apart (viscous and Coulomb friction of a joint at one speed) neither is
+  // asked for given the other, though one of them is.
+  void RemoveUnasked() {
+    while (true) {
+      int least = -1;
+      double lacks = 0;
+      for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
+        if (IsNone(f)) continue;
+        const MissingTerm term = Term(f);
+        const double by = LeastDeltaChi2(term) - term.delta_chi2;
+        if (by >= lacks) lacks = by, least = f;
+      }
+      if (least < 0) return;
+      for (int j = 0; j < robot_.num_joints(); ++j) {
+        none_.insert(CandidateOf(least, j));
+      }
+    }
+  }
+  bool IsNone(int f) const {
+    for (int j = 0; j < robot_.num_joints(); ++j) {
+      if (none_.count(CandidateOf(f, j)) == 0) return false;
+    }
+    return true;
+  }
+  bool IsAskedFor(const MissingTerm& term) const {
+    return term.delta_chi2 > LeastDeltaChi2(term);
   }
 
   // As of an effect, at least the threshold and ln N for each joint's parameter

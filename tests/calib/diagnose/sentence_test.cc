@@ -92,7 +92,7 @@ TEST(BriefReport, SaysWhatItCannotName) {
   diagnosis.unexplained = {};
   EXPECT_THAT(BriefReport(diagnosis), HasSubstr("no known effect explains."));
   const std::vector<std::pair<GapVerdict, std::string>> others = {
-      {GapVerdict::kNoiseFloor, "agrees with the log to within the noise"},
+      {GapVerdict::kNoiseFloor, "agrees with the log to within what"},
       {GapVerdict::kAbsorbed, "better values"},
       {GapVerdict::kNotTestable, "cannot carry a diagnosis"}};
   diagnosis.torque.refit = 1;
@@ -134,8 +134,8 @@ TEST(BriefReport, SaysWithinWhatItAgrees) {
   diagnosis.joints[1].floor_rms = .77;
   diagnosis.joints[1].torque_rms = 1;
   EXPECT_EQ(BriefReport(diagnosis),
-            "The model agrees with the log to within the noise, up to 77 % of "
-            "the torque (elbow).");
+            "The model agrees with the log to within what a refit leaves, "
+            "which is taken for noise, up to 77 % of the torque (elbow).");
   diagnosis.joints[1].floor_rms = 1.1;
   EXPECT_THAT(BriefReport(diagnosis), HasSubstr("explains less of the torque"))
       << "a half and more of the squares, in the joints' mean";

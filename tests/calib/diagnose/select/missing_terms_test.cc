@@ -1,6 +1,11 @@
 #include "calib/diagnose/select/missing_terms.h"
 
+#include <cmath>
+#include <random>
+
 #include "tests/fixtures/diagnosed_arm.h"
+#include "tests/fixtures/effect_arm.h"
+#include "tests/fixtures/gap_segment.h"
 
 namespace armcal::missing_terms_test {
 
@@ -73,6 +78,42 @@ TEST_F(MissingTermsTest, WhatTheRobotDoesNotHaveEitherIsNotMissing) {
     EXPECT_THAT(term.effect->name,
                 testing::AnyOf("viscous_friction", "coulomb_friction"));
   }
+}
+
+// There and back at one speed, in which viscous and Coulomb friction are one
+// torque and its sign: given one of them nothing asks for the other, which is
+// no reason to have neither. The arm has dry friction alone, its file none.
+TEST(FitMissingTerms, HasOneOfTwoThatLookAlike) {
+  constexpr double kStep = .01, kRound = 2.5, kSpeed = 1;  // s, s, rad/s
+  constexpr int kSize = 1000;
+  const EffectArm arm("2R planar (vertical plane)", 8, kStep);
+  Motion motion = arm.motion;
+  motion.stamp_error.resize(0);
+  motion.q.resize(kSize, 2);
+  motion.qd.resize(kSize, 2);
+  motion.qdd.setZero(kSize, 2);
+  Eigen::MatrixXd tau(kSize, 2);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0, .4);
+  for (int k = 0; k < kSize; ++k) {
+    const double phase = std::fmod(k * kStep / kRound, 1);
+    const double speed = phase < .5 ? kSpeed : -kSpeed;
+    motion.qd.row(k) << speed, -speed;
+    const double way = kSpeed * kRound * (phase < .5 ? phase : 1 - phase);
+    motion.q.row(k) << way, -way;
+    for (int j = 0; j < 2; ++j) {
+      tau(k, j) = noise(random) + 1.5 * (motion.qd(k, j) > 0 ? 1 : -1);
+    }
+  }
+  const Robot file = WithoutFriction(arm.robot);
+  const GapBaseline baseline(file, {}, Eigen::VectorXd::Constant(2, 10));
+  tau += RecordedTorque(file, baseline.transitions(), motion).nominal();
+  const MissingTerms missing =
+      FitMissingTerms(file, {}, 6, {MakeSegment(motion, tau)});
+  ASSERT_EQ(missing.terms.size(), 1u);
+  EXPECT_THAT(missing.terms[0].effect->name,
+              testing::AnyOf("viscous_friction", "coulomb_friction"));
+  EXPECT_LT(missing.terms[0].left.norm(), .5 * missing.without.norm());
 }
 
 // With a log from before, it is no news that the file had none.
