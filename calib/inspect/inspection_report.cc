@@ -36,6 +36,11 @@ std::string CoverageText(const LogCoverage& coverage) {
   text += Format(
       "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
       coverage.residual_percent, coverage.noise_source.c_str());
+  for (const std::string& joint : coverage.unpowered) {
+    text += "  the torque of " + joint +
+            ", is next to nothing beside gravity and inertia of the file's "
+            "links: in another unit, or borne by something else\n";
+  }
   text += Format("  %d of %d directions of the model parameters show\n",
                  coverage.rank, coverage.total);
   for (const std::string& unseen : coverage.unseen) {
@@ -54,6 +59,7 @@ json CoverageJson(const LogCoverage& coverage) {
           {"rank", coverage.rank},
           {"total", coverage.total},
           {"unseen", coverage.unseen},
+          {"unpowered", coverage.unpowered},
           {"advice", coverage.advice},
           {"residual_percent", JsonNumber(coverage.residual_percent)},
           {"outliers", coverage.outliers},

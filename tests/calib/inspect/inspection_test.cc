@@ -40,6 +40,19 @@ TEST_F(InspectionTest, ACleanLogIsClean) {
   EXPECT_TRUE(coverage.findings.empty());
 }
 
+// Of links that weigh, and a torque in another unit.
+TEST_F(InspectionTest, AJointWithNextToNoTorqueIsTold) {
+  const auto unpowered = [this](double share) {
+    Log log = arm_.log;
+    log.tau.col(1) *= share;
+    return CoverageOf(arm_.robot, WriteFile(LogText(log), "weak.csv"), options_)
+        .unpowered;
+  };
+  EXPECT_TRUE(unpowered(1).empty());
+  ASSERT_EQ(unpowered(.003).size(), 1u);
+  EXPECT_EQ(unpowered(.003)[0].find(arm_.robot.links[1].joint.name + ", "), 0u);
+}
+
 TEST_F(InspectionTest, ALogOfNoTimeIsRefused) {
   Log log = arm_.log;
   log.t.setConstant(1.7e9);
