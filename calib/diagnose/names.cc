@@ -8,14 +8,6 @@
 namespace armcal {
 namespace {
 
-// Whether an effect is a body: its inertia has the sign of its mass.
-bool IsBody(const Effect& effect) {
-  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                     [](const EffectParameter& parameter) {
-                       return parameter.sign == EffectParameter::Sign::kAsFirst;
-                     });
-}
-
 // Whether the sign of the first estimate is known, with 95 %: joints may tell a
 // body's moment alone and leave its mass open.
 bool IsSignKnown(const FoundEffect& found) {
@@ -33,12 +25,10 @@ bool HasDirection(const FoundEffect& found) {
     return parameter.search == Parameter::Search::kLinear;
   };
   const auto first = std::find_if(all.begin(), all.end(), is_linear);
-  const bool has_one_size =
-      IsBody(*found.effect)
-          ? IsSignKnown(found)
-          : std::count_if(all.begin(), all.end(), is_linear) == 1;
-  return has_one_size && first->sign == Parameter::Sign::kFree &&
-         !found.estimates.empty() && found.estimates[0].value != 0;
+  if (IsBody(*found.effect)) return IsSignKnown(found);
+  return std::count_if(all.begin(), all.end(), is_linear) == 1 &&
+         first->sign == Parameter::Sign::kFree && !found.estimates.empty() &&
+         found.estimates[0].value != 0;
 }
 
 }  // namespace

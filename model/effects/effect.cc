@@ -7,6 +7,13 @@
 namespace armcal {
 inline namespace effects {
 
+bool IsBody(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& parameter) {
+                       return parameter.sign == EffectParameter::Sign::kAsFirst;
+                     });
+}
+
 bool HasMean(const Effect& law, const Effect& mean) {
   return std::count(law.means.begin(), law.means.end(), mean.name) > 0;
 }

@@ -105,9 +105,10 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
-// Springs and what is like them, which have no friction of another day beside
-// them to be less of.
-bool MayHaveWeakened(const Effect& effect) {
+// Bodies; springs and what is like them, which have no friction of another day
+// beside them to be less of.
+bool MayBeLess(const Effect& effect) {
+  if (IsBody(effect)) return true;
   return effect.nature == Effect::Nature::kLaw && effect.proportional &&
          !IsCoulombInFiles(effect);
 }
@@ -129,7 +130,7 @@ void ListShapes(const Effect& effect, const EffectSite& site,
     candidate.log = shape.log;
     candidate.tried = tried;
     candidate.prior_penalty = PriorPenalty(effect, since_reference);
-    candidate.is_change = since_reference && MayHaveWeakened(effect);
+    candidate.is_change = since_reference && MayBeLess(effect);
     for (size_t k = 0; k < effect.parameters.size(); ++k) {
       if (effect.parameters[k].search != Search::kLinear) {
         const double usual = effect.parameters[k].size(site);

@@ -31,8 +31,8 @@ struct GapCandidate {
   bool is_usual = true;    // its shape is the usual one of its effect
   bool is_larger = false;  // than the first size of its effect
   bool is_fitted = false;  // its shape and size are those of a fit
-  // Since a reference, which may have had more of it: a spring's stiffness is
-  // positive, a change of it has either sign.
+  // Since a reference, which may have had more of it: a spring's stiffness and
+  // a load's mass are positive, a change of them has either sign.
   bool is_change = false;
   // Of its coefficient, where its column is the torque at its size and not at
   // sizes far from it.

@@ -133,8 +133,7 @@ DataFinding TooShortToHoldOut(const GapRows& rows) {
                  "motion are needed at %.3g Hz",
                  longest, GapRows::ShortestSplit(rows.bandwidth_hz()),
                  rows.bandwidth_hz()),
-          "a longer log, another one as " + OptionName("validate") +
-              ", or a higher " + OptionName("bandwidth")};
+          "a longer log, or another one as " + OptionName("validate")};
 }
 
 DataFinding OtherThanReference(const std::vector<const Effect*>& terms) {

@@ -56,12 +56,13 @@ bool IsCarried(const EffectSite& site,
 
 }  // namespace
 
-// A body on the tool, or one that was taken off, which has a negative mass: its
-// mass, its first moments hx hy hz about the tool frame's origin, in the last
-// link's axes, and the inertia about its own centre, taken as the same about
-// all axes; but of a pendulum with the tool's frame on its axis, where the
-// first parameter is the inertia about that over 1 m^2, in the place of the
-// mass, and the last is nothing.
+// A body on the tool, or since a reference one that was taken off, which has a
+// negative mass (a file's last link that is too heavy is that link's, see
+// LinkInertia): its mass, its first moments hx hy hz about the tool frame's
+// origin, in the last link's axes, and the inertia about its own centre, taken
+// as the same about all axes; but of a pendulum with the tool's frame on its
+// axis, where the first parameter is the inertia about that over 1 m^2, in the
+// place of the mass, and the last is nothing.
 Effect Payload() {
   Effect effect;
   effect.name = "payload";
@@ -80,8 +81,9 @@ Effect Payload() {
     return kRadius * kRadius * mass(site);
   };
   effect.parameters = {
-      Linear("mass", "kg", mass), Linear("hx", "kg m", moment),
-      Linear("hy", "kg m", moment), Linear("hz", "kg m", moment),
+      Linear("mass", "kg", mass, EffectParameter::Sign::kPositive),
+      Linear("hx", "kg m", moment), Linear("hy", "kg m", moment),
+      Linear("hz", "kg m", moment),
       Linear("inertia", "kg m^2", inertia, EffectParameter::Sign::kAsFirst)};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {

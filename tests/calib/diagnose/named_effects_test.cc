@@ -43,10 +43,11 @@ TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
 // A body that the file has and the robot lacks is told as one taken off.
 TEST(NamedEffects, TellsWhatWasTakenOff) {
   GapDiagnosis diagnosis = SampleDiagnosis();
-  diagnosis.effects = {MakeFound("payload", -1)};
+  diagnosis.effects = {MakeFound("added_mass", 1)};
   diagnosis.effects[0].estimates[0] = {"mass", "kg", -1.25};
-  EXPECT_THAT(BriefReport(diagnosis),
-              HasSubstr("The model lacks payload (-1.2 kg), which"));
+  EXPECT_THAT(
+      BriefReport(diagnosis),
+      HasSubstr("The model lacks added mass on elbow (-1.2 kg), which"));
 }
 
 // A calibration's own logs are a reference; where they have the effect as well
