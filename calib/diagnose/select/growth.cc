@@ -192,6 +192,9 @@ std::vector<int> BestOfEachJoint(const GapRegression& regression,
 //     (Effect::moves_reversals): friction that yields before it breaks away,
 //     that creeps, or that a simulator keeps smooth;
 //   - both.
+// It is as if it were that, too, where torque is late and joints have friction
+// of their own besides: then it is still asked for beside them, by inertia and
+// gravity that are late as well.
 // One number for all joints costs less than one for each, and of few effects
 // that a selection may have it explains the most; so that it would stand for
 // all of them.
@@ -200,17 +203,25 @@ bool IsOfEachJoint(const GapRegression& regression,
                    const SelectionOptions& options, const std::vector<int>& set,
                    const GapScreen& smaller, int c, double odds) {
   const Effect& effect = *candidates[c].effect;
-  const auto score = [&](const std::vector<int>& others,
+  // Likelier than the candidate, and no likelier with it.
+  const auto is_it = [&](std::vector<int> others,
                          const std::vector<JointRows>& columns) {
-    return ScoreTogether(regression, candidates, set, smaller, others, columns);
+    const auto score = [&] {
+      return ScoreTogether(regression, candidates, set, smaller, others,
+                           columns);
+    };
+    const double without = score();
+    if (!(without > odds)) return false;
+    others.push_back(c);
+    return without >= score();
   };
   const std::vector<int> others = BestOfEachJoint(
       regression, candidates, options, set, effect.if_of_each_joint);
-  if (!others.empty() && score(others, {}) > odds) return true;
+  if (!others.empty() && is_it(others, {})) return true;
   if (!effect.moves_reversals) return false;
   const std::vector<JointRows> late =
       LateFriction(regression.baseline(), *regression.data());
-  return score({}, late) > odds || score(others, late) > odds;
+  return is_it({}, late) || is_it(others, late);
 }
 
 }  // namespace

@@ -234,6 +234,14 @@ TEST_F(FrictionThatLagsTest, OfItsOwnTimeIsNoDelay) {
   EXPECT_EQ(chosen.count("delay"), 0u);
 }
 
+// Friction changes sign at another time than the delay's, and inertia and
+// gravity at the delay's.
+TEST_F(FrictionThatLagsTest, ADelayBesideItIsOne) {
+  for (const double late : {.01, .02}) {
+    EXPECT_EQ(ChosenOf(1, late).count("delay"), 1u) << late;
+  }
+}
+
 TEST_F(FrictionThatLagsTest, ADelayIsOne) {
   EXPECT_THAT(ChosenOf(0, .02), testing::ElementsAre("delay"));
 }
