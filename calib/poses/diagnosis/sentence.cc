@@ -92,7 +92,12 @@ std::string PoseSentence(const PoseDiagnosis& diagnosis) {
     case PoseVerdict::kNoiseFloor:
       return "The poses show no effect beyond the geometry, by which held-out "
              "poses are " +
-             left + " rms away." + UnlikelyText(diagnosis);
+             left + " rms away" +
+             (diagnosis.misfit.instrument_u95 > 0
+                  ? "."
+                  : "; the file states no uncertainty of the instrument "
+                    "(u95_1) to hold that against.") +
+             UnlikelyText(diagnosis);
     case PoseVerdict::kUnknown:
       return "By the geometry held-out poses are " + left +
              " rms away, which is more than noise, and no effect of the list "

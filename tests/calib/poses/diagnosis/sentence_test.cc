@@ -108,6 +108,19 @@ TEST(PoseSentence, ClaimsNothingThatNoneIsLikelierThan) {
   }
 }
 
+// What is left may be more than noise where nobody says how large that is.
+TEST(PoseSentence, AsksForTheInstrument) {
+  PoseDiagnosis diagnosis;
+  diagnosis.verdict = PoseVerdict::kNoiseFloor;
+  diagnosis.gap.held_out_after = 4e-3;
+  EXPECT_EQ(PoseSentence(diagnosis),
+            "The poses show no effect beyond the geometry, by which held-out "
+            "poses are 4 mm rms away; the file states no uncertainty of the "
+            "instrument (u95_1) to hold that against.");
+  diagnosis.misfit.instrument_u95 = 2e-3;
+  EXPECT_THAT(PoseSentence(diagnosis), Not(HasSubstr("u95")));
+}
+
 // By the rows of the file, as outliers are, or by its own numbers.
 TEST(PoseSentence, CallsPosesAsTheFileDoes) {
   Plant plant("UR5 6R", 1);
