@@ -68,8 +68,10 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
   fit.prior_length = options.trust.length;
   fit.prior_angle = options.trust.angle;
   if (options.progress) options.progress("fitting the poses", -1);
-  const std::string units = WrongUnits(robot, *options.poses);
-  if (!units.empty()) throw OptionError(OptionName("poses") + ": " + units);
+  RequireUnits(robot, *options.poses, "poses");
+  if (options.pose_validation) {
+    RequireUnits(robot, *options.pose_validation, "validate");
+  }
   fit.loss = options.equations.loss
                  ? *options.equations.loss
                  : ChoosePoseLoss(robot, *options.poses, fit);

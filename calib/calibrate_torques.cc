@@ -19,6 +19,7 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
 #include "calib/log_doubts.h"
+#include "calib/poses/unit_audit.h"
 #include "calib/refine/impossible_robot.h"
 #include "calib/refine/nonlinear_report.h"
 #include "calib/refine/trajectory_refinement.h"
@@ -138,6 +139,7 @@ class TorqueCalibrator {
     CheckTarget(options_);
     CheckApart(logs, options.validation);
     CheckSelection(options_);
+    if (options_.poses) RequireUnits(robot_, *options_.poses, "poses");
   }
 
   CalibrateSummary Run();

@@ -90,8 +90,8 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                       "lengths or images: too many effects look like another "
                       "point");
   }
-  const std::string units = WrongUnits(robot, measured);
-  if (!units.empty()) throw OptionError(OptionName("poses") + ": " + units);
+  RequireUnits(robot, measured, "poses");
+  if (options.validation) RequireUnits(robot, *options.validation, "validate");
   PoseDiagnosisOptions search;
   search.geometry = options.geometry;
   search.without = options.without;

@@ -77,7 +77,7 @@ TorqueInformation InformByTorques(const Robot& robot,
   const ArmFit fit(unknowns, options.trust, nullptr);
   const MatrixXd prior = fit.PriorInformation(options.trust);
   const LinkInformation information =
-      pass.Inform(at, noise, fit.PoseRows(at), prior);
+      pass.Inform(at, noise, fit.InformByPoses(at).rows, prior);
   result.x = at.Stacked().head(size);
 
   const std::vector<int> offsets = OffsetColumns(n);

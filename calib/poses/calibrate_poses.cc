@@ -13,8 +13,8 @@
 #include "calib/poses/misfit.h"
 #include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
+#include "calib/poses/seen_unknowns.h"
 #include "calib/poses/shared_errors.h"
-#include "model/signals/dense_solvers.h"
 
 namespace armcal {
 namespace {
@@ -22,36 +22,17 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Derivatives of `rows` by the free parameters, then by what else there is,
-// with the priors of the latter.
+// Derivatives by the free parameters, then by what else there is, with the
+// priors of the latter, of those by all.
 MatrixXd FreeJacobian(const PoseFit& fit, const std::vector<bool>& free,
-                      const std::vector<int>& rows, const PoseUnknowns& at,
-                      VectorXd* residuals) {
-  const MatrixXd J = fit.WithOtherPriors(fit.Jacobian(rows, at, residuals));
+                      const MatrixXd& by_all) {
+  const MatrixXd J = fit.WithOtherPriors(by_all);
   std::vector<int> columns;
   for (int k = 0; k < J.cols(); ++k) {
     if (k >= fit.geometry().size() || free[k]) columns.push_back(k);
   }
   return J(Eigen::all, columns);
 }
-
-// Of columns' unknowns by the rows A alone: an orthonormal basis of what they
-// see is A half; and, of each unknown, the share that no row sees.
-struct Seen {
-  explicit Seen(const MatrixXd& A) {
-    const VectorXd scale = A.colwise().norm().cwiseMax(1e-300);
-    const Eigen::JacobiSVD<MatrixXd> svd(A * scale.cwiseInverse().asDiagonal(),
-                                         Eigen::ComputeThinV);
-    const VectorXd& s = svd.singularValues();
-    const Eigen::Index rank = (s.array() > 1e-9 * s[0]).count();
-    const MatrixXd& V = svd.matrixV();
-    half = scale.cwiseInverse().asDiagonal() * V.leftCols(rank) *
-           s.head(rank).cwiseInverse().asDiagonal();
-    unseen = V.rightCols(V.cols() - rank).rowwise().squaredNorm();
-  }
-  MatrixXd half;
-  VectorXd unseen;
-};
 
 void ReportInstrument(const InstrumentUnknowns& unknowns, const VectorXd& at,
                       const MatrixXd& covariance, PoseCalibration* result) {
@@ -93,12 +74,11 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   const std::vector<std::string> units = geometry.Units();
   const VectorXd nominal = geometry.Values();
   VectorXd residuals;
-  const MatrixXd J = FreeJacobian(fit, free, rows, at, &residuals);
-  const Seen seen(J);
+  const MatrixXd by_all = fit.Jacobian(rows, at, &residuals);
+  const MatrixXd J = FreeJacobian(fit, free, by_all);
+  const SeenUnknowns seen(J);
   const MatrixXd covariance =
-      seen.half *
-      ScoreCovariance(fit, rows, residuals, J * seen.half,
-                      fit.NumUnknowns(free)) *
+      seen.half * ScoreCovariance(fit, rows, by_all, residuals, J * seen.half) *
       seen.half.transpose();
   Eigen::Index c = 0;
   for (int p = 0; p < geometry.size(); ++p) {

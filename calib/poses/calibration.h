@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/poses/held_out_comparison.h"
 #include "model/robot/arm_geometry.h"
 #include "model/robot/robot.h"
 #include "problems/poses/pose_problem.h"
@@ -117,9 +118,8 @@ struct PoseCalibration {
   // others in the same way; of a refined geometry alone.
   double file_held_out_rms = 0;
   // By how much the mean square of poses left out is larger with the refined
-  // geometry than with the file's, m^2, and the standard error of that; poses
-  // that both give up, which nothing predicts, are in neither.
-  double held_out_excess = 0, held_out_excess_stderr = 0;
+  // geometry than with the file's, m^2.
+  HeldOutExcess held_out_excess;
   // Root mean squares of these, with the refined and with the file's, m.
   double compared_rms = 0, file_compared_rms = 0;
   std::optional<PoseValidation> validation;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/poses/held_out_comparison.h"
 #include "calib/poses/outliers.h"
 #include "calib/poses/pose_solution.h"
 #include "calib/poses/repeated_poses.h"
@@ -10,71 +11,49 @@
 namespace armcal {
 namespace {
 
-// A loss, which poses are outliers to it, and the mean of the squared distances
-// of each pose as it was predicted; without rows where that was not asked.
+// A loss, and how it predicts; without rows where that was not asked.
 struct LossTried {
   RobustLoss loss;
-  std::vector<int> outliers;
-  Eigen::ArrayXd squares;
+  PredictedSquares held_out;
 };
 
 LossTried Try(RobustLoss loss, const Robot& robot,
               const PoseMeasurements& measured,
               PoseCalibrationOptions options) {
   options.loss = loss;
-  LossTried tried = {loss, {}, {}};
+  LossTried tried = {loss, {}};
   PoseFit fit(robot, measured, options);
   const PoseSolution solution = SolvePoses(measured, options.refine, &fit);
   if (!solution.refusal.empty()) return tried;
-  tried.outliers = FindOutliers(fit, solution.unknowns, fit.AllRows());
-  if (loss == RobustLoss::kTukey && tried.outliers.empty()) return tried;
-  tried.squares = LeftOutDistances(fit, solution.free, solution.unknowns, loss,
-                                   options.folds)
-                      .array()
-                      .square()
-                      .rowwise()
-                      .mean();
+  std::vector<int>& outliers = tried.held_out.outliers;
+  outliers = FindOutliers(fit, solution.unknowns, fit.AllRows());
+  if (loss == RobustLoss::kTukey && outliers.empty()) return tried;
+  tried.held_out.squares = MeanSquares(LeftOutDistances(
+      fit, solution.free, solution.unknowns, loss, options.folds));
   return tried;
 }
 
-// Poses that all have predicted and not all give up.
-std::vector<int> Comparable(const std::vector<LossTried>& tried) {
-  std::vector<int> poses;
-  for (int k = 0; k < tried[0].squares.size(); ++k) {
-    const auto predicts = [k](const LossTried& one) {
-      return std::isfinite(one.squares[k]);
-    };
-    const auto gives_up = [k](const LossTried& one) {
-      return std::binary_search(one.outliers.begin(), one.outliers.end(), k);
-    };
-    if (std::all_of(tried.begin(), tried.end(), predicts) &&
-        !std::all_of(tried.begin(), tried.end(), gives_up)) {
-      poses.push_back(k);
-    }
-  }
-  return poses;
-}
-
-// The first whose mean is within a standard error of the least.
-RobustLoss FirstNearTheLeast(const std::vector<LossTried>& tried) {
-  const std::vector<int> poses = Comparable(tried);
-  if (poses.empty()) return tried[0].loss;
-  std::vector<Eigen::ArrayXd> squares;
-  for (const LossTried& one : tried) squares.push_back(one.squares(poses));
-  const Eigen::ArrayXd least = *std::min_element(
-      squares.begin(), squares.end(),
-      [](const auto& a, const auto& b) { return a.mean() < b.mean(); });
-  const auto is_near = [&least](const Eigen::ArrayXd& one) {
-    const Eigen::ArrayXd more = one - least;
-    const double variance = (more - more.mean()).square().mean();
-    return more.mean() <=
-           std::sqrt(variance / static_cast<double>(more.size()));
+// The first that is not clearly worse than the best.
+RobustLoss FirstNearTheLeast(const std::vector<LossTried>& tried,
+                             const std::vector<int>& pose_of_row) {
+  std::vector<PredictedSquares> models;
+  for (const LossTried& one : tried) models.push_back(one.held_out);
+  const Eigen::MatrixXd squares = SquaresByPose(models, pose_of_row);
+  if (squares.cols() < 2) return tried[0].loss;
+  Eigen::Index best = 0;
+  squares.rowwise().mean().minCoeff(&best);
+  const auto is_near = [&](const LossTried& one) {
+    return !ExcessOf(squares.row(&one - tried.data()), squares.row(best))
+                .is_clear();
   };
-  const auto first = std::find_if(squares.begin(), squares.end(), is_near);
-  return tried[first - squares.begin()].loss;
+  return std::find_if(tried.begin(), tried.end(), is_near)->loss;
 }
 
 }  // namespace
+
+Eigen::ArrayXd MeanSquares(const Eigen::MatrixXd& distances) {
+  return distances.array().square().rowwise().mean();
+}
 
 Eigen::MatrixXd LeftOutDistances(const PoseFit& fit,
                                  const std::vector<bool>& free,
@@ -109,14 +88,14 @@ Eigen::MatrixXd LeftOutDistances(const PoseFit& fit,
 RobustLoss ChoosePoseLoss(const Robot& robot, const PoseMeasurements& measured,
                           PoseCalibrationOptions options) {
   const LossTried tukey = Try(RobustLoss::kTukey, robot, measured, options);
-  if (tukey.squares.size() == 0) return tukey.loss;
+  if (tukey.held_out.squares.size() == 0) return tukey.loss;
   std::vector<LossTried> tried = {tukey};
   for (const RobustLoss loss :
        {RobustLoss::kCauchy, RobustLoss::kHuber, RobustLoss::kSquared}) {
     LossTried one = Try(loss, robot, measured, options);
-    if (one.squares.size() > 0) tried.push_back(std::move(one));
+    if (one.held_out.squares.size() > 0) tried.push_back(std::move(one));
   }
-  return FirstNearTheLeast(tried);
+  return FirstNearTheLeast(tried, RepeatedPoses(measured.q));
 }
 
 }  // namespace armcal

@@ -180,7 +180,8 @@ VectorXd PoseFit::Residuals(const std::vector<int>& rows,
 // Minimises the residuals' loss and the priors of geometry and instrument over
 // what is free.
 bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
-                    RobustLoss loss, PoseUnknowns* unknowns) const {
+                    RobustLoss loss, PoseUnknowns* unknowns,
+                    double tolerance) const {
   ceres::Problem problem;
   AddPoseResiduals(geometry_, measured_, rows, noise_, loss, unknowns,
                    &problem);
@@ -197,7 +198,7 @@ bool PoseFit::Solve(const std::vector<bool>& free, const std::vector<int>& rows,
     problem.SetManifold(unknowns->geometry.data(),
                         new ceres::SubsetManifold(geometry_->size(), constant));
   }
-  const ceres::Solver::Summary summary = SolveDense(1e-12, &problem);
+  const ceres::Solver::Summary summary = SolveDense(tolerance, &problem);
   return summary.IsSolutionUsable() && unknowns->geometry.allFinite() &&
          unknowns->other.allFinite();
 }

@@ -64,6 +64,7 @@ class PoseFit {
   std::vector<bool> Wanted(RefineGeometry refine) const {
     return FreeGeometry(*geometry_, refine, &measured_);
   }
+  RefineGeometry refine() const { return options_.refine; }  // asked for
   const PoseMeasurements& measured() const { return measured_; }
   // Why there are too few poses for so many unknowns; empty if there are not.
   std::string WhyTooFew(const std::vector<bool>& free) const;
@@ -82,8 +83,10 @@ class PoseFit {
                      unknowns, problem);
   }
   // False where the solver found no usable solution.
+  // `tolerance`: where it is at rest, relative to the cost (SolveDense).
   bool Solve(const std::vector<bool>& free, const std::vector<int>& rows,
-             RobustLoss loss, PoseUnknowns* unknowns) const;
+             RobustLoss loss, PoseUnknowns* unknowns,
+             double tolerance = 1e-12) const;
   // With the noise re-estimated; a loss that gives poses up starts where
   // Huber's ends.
   bool SolveWithNoise(const std::vector<bool>& free,

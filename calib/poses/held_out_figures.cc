@@ -4,6 +4,7 @@
 
 #include "calib/numerics/median.h"
 #include "calib/poses/cross_validation.h"
+#include "calib/poses/held_out_comparison.h"
 #include "calib/poses/outliers.h"
 #include "calib/poses/repeated_poses.h"
 
@@ -31,36 +32,15 @@ void CompareWithFile(const PoseFit& fit, const PoseSolution& solution,
   const std::vector<double> finite = Finite(by_file);
   if (finite.empty()) return;
   result->file_held_out_rms = Rms(finite);
-  const std::vector<int> pose_of_row = RepeatedPoses(fit.measured().q);
-  const auto squares_by_pose = [&](const MatrixXd& distances) {
-    const Eigen::RowVectorXd by_row =
-        distances.array().square().rowwise().mean();
-    return Eigen::RowVectorXd(MeansByPose(by_row, pose_of_row));
-  };
-  Eigen::RowVectorXd own = squares_by_pose(predicted),
-                     files = squares_by_pose(by_file);
-  if (!result->outliers.empty()) {
-    for (const int k : FindOutliers(fit, solution.frame, result->outliers)) {
-      own[pose_of_row[k]] = files[pose_of_row[k]] = std::nan("");
-    }
-  }
-  const std::vector<double> more = Finite(own - files);
-  if (more.size() < 2) return;
-  const auto rms = [&](const Eigen::RowVectorXd& squares) {
-    double sum = 0;
-    for (Eigen::Index k = 0; k < squares.size(); ++k) {
-      if (std::isfinite(own[k] - files[k])) sum += squares[k];
-    }
-    return std::sqrt(sum / static_cast<double>(more.size()));
-  };
-  result->compared_rms = rms(own);
-  result->file_compared_rms = rms(files);
-  const Eigen::Map<const Eigen::ArrayXd> all(
-      more.data(), static_cast<Eigen::Index>(more.size()));
-  const double count = static_cast<double>(more.size());
-  result->held_out_excess = all.mean();
-  result->held_out_excess_stderr =
-      std::sqrt((all - all.mean()).square().sum() / (count - 1) / count);
+  const MatrixXd squares =
+      SquaresByPose({{MeanSquares(predicted), result->outliers},
+                     {MeanSquares(by_file),
+                      FindOutliers(fit, solution.frame, fit.AllRows())}},
+                    RepeatedPoses(fit.measured().q));
+  if (squares.cols() < 2) return;
+  result->compared_rms = std::sqrt(squares.row(0).mean());
+  result->file_compared_rms = std::sqrt(squares.row(1).mean());
+  result->held_out_excess = ExcessOf(squares.row(0), squares.row(1));
 }
 
 void CrossValidate(const PoseFit& fit, const PoseSolution& solution,

@@ -107,7 +107,8 @@ std::string OrderSentence(const PoseMisfit& misfit) {
   return "what is left of successive poses is alike (correlation " +
          Format("%.2f", misfit.order_correlation) +
          "): something moved or drifted while they were measured, or the arm "
-         "does what its geometry lacks; standard deviations are too small";
+         "does what its geometry lacks; standard deviations know nothing of a "
+         "drift";
 }
 
 }  // namespace armcal

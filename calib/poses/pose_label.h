@@ -15,4 +15,14 @@ inline long PoseLabel(const PoseMeasurements& measured, int pose) {
   return measured.row.empty() ? pose + 1 : measured.row[pose];
 }
 
+// What was measured, as people call it.
+inline const char* MeasuredKind(const PoseMeasurements& measured) {
+  if (measured.lengths.size() > 0) return "wire lengths";
+  if (measured.tilts.size() > 0) return "tilts";
+  if (measured.planes) return "touched planes";
+  if (!measured.touched.empty()) return "touched points";
+  if (measured.pixel_stddev > 0) return "images";
+  return measured.targets.empty() ? "tool poses" : "targets";
+}
+
 }  // namespace armcal

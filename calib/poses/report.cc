@@ -5,15 +5,14 @@
 #include <cstdio>
 
 #include "calib/linear/verdict.h"
-#include "calib/numerics/json_figures.h"
+#include "calib/poses/held_text.h"
 #include "calib/poses/pose_label.h"
+#include "calib/poses/repeated_poses.h"
 #include "calib/poses/verdict.h"
 #include "model/text/format.h"
 
 namespace armcal {
 namespace {
-
-using nlohmann::json;
 
 // Lengths in mm and angles in degrees, as people read them; others as they are.
 struct ShownUnit {
@@ -40,13 +39,12 @@ std::string Estimate(const GeometryEstimate& p) {
   return text;
 }
 
-const char* Kind(const PoseMeasurements& measured) {
-  if (measured.lengths.size() > 0) return "wire lengths";
-  if (measured.tilts.size() > 0) return "tilts";
-  if (measured.planes) return "touched planes";
-  if (!measured.touched.empty()) return "touched points";
-  if (measured.pixel_stddev > 0) return "images";
-  return measured.targets.empty() ? "tool poses" : "targets";
+// "49, read 147 times": a pose that is read again is no other pose.
+std::string CountText(const PoseMeasurements& measured) {
+  const int poses = CountPoses(RepeatedPoses(measured.q));
+  if (poses == measured.size()) return std::to_string(poses);
+  return std::to_string(poses) + ", read " + std::to_string(measured.size()) +
+         " times";
 }
 
 std::string OutlierText(const PoseMeasurements& measured,
@@ -131,37 +129,6 @@ std::string ObservedText(const PoseCalibration& result) {
   return text;
 }
 
-json ObservedJson(const PoseCalibration& result) {
-  json all = json::array();
-  for (const ObservedEstimate& p : result.observed) {
-    all.push_back({{"name", p.name},
-                   {"unit", p.unit},
-                   {"value", JsonNumber(p.value)},
-                   {"stddev", JsonNumber(p.stddev)}});
-  }
-  return all;
-}
-
-json ValidationJson(const PoseCalibration& result) {
-  if (!result.validation) return nullptr;
-  return {{"count", result.validation->count},
-          {"file_rms", JsonNumber(result.validation->file_rms)},
-          {"rms", JsonNumber(result.validation->rms)},
-          {"median", JsonNumber(result.validation->median)}};
-}
-
-json InstrumentJson(const PoseCalibration& result) {
-  json all = json::array();
-  for (const InstrumentEstimate& p : result.instrument) {
-    all.push_back({{"name", p.name},
-                   {"unit", p.unit},
-                   {"start", JsonNumber(p.start)},
-                   {"value", JsonNumber(p.value)},
-                   {"stddev", JsonNumber(p.stddev)}});
-  }
-  return all;
-}
-
 // What is left beside the instrument, and what else there is to say of it.
 std::string MisfitText(const PoseCalibration& result, const char* unit) {
   const PoseMisfit& misfit = result.misfit;
@@ -180,25 +147,6 @@ std::string MisfitText(const PoseCalibration& result, const char* unit) {
   return text;
 }
 
-json CouplingJson(const Robot& robot, const PoseCalibration& result) {
-  if (!result.coupling) return nullptr;
-  const PoseCoupling& c = *result.coupling;
-  return {{"joint", robot.links[c.joint].joint.name},
-          {"by", robot.links[c.by].joint.name},
-          {"factor", c.factor},
-          {"stddev", JsonNumber(c.stddev)},
-          {"rms_before", c.rms_before},
-          {"rms_after", c.rms_after},
-          {"angle_before", c.angle_before},
-          {"angle_after", c.angle_after}};
-}
-
-json NotesJson(const PoseCalibration& result) {
-  json notes = json::array();
-  for (const std::string& note : PoseNotes(result)) notes.push_back(note);
-  return notes;
-}
-
 }  // namespace
 
 std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
@@ -210,84 +158,24 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   const std::string milli = "m" + result.unit;
   const char* const unit = milli.c_str();
   std::snprintf(line, sizeof(line),
-                "poses      %d, %s; noise %.3g %s\n"
+                "poses      %s, %s; noise %.3g %s\n"
                 "deviation  %.4f %s rms with the file's geometry, %.4f %s with "
                 "the estimate\n"
                 "           median %.4f %s, max %.4f %s; cross-validated "
                 "%.4f %s rms, median %.4f %s\n",
-                measured.size(), Kind(measured), 1e3 * result.noise.position,
-                unit, 1e3 * result.before_rms, unit, 1e3 * result.rms, unit,
-                1e3 * result.median, unit, 1e3 * result.max, unit,
-                1e3 * result.held_out_rms, unit, 1e3 * result.held_out_median,
-                unit);
+                CountText(measured).c_str(), MeasuredKind(measured),
+                1e3 * result.noise.position, unit, 1e3 * result.before_rms,
+                unit, 1e3 * result.rms, unit, 1e3 * result.median, unit,
+                1e3 * result.max, unit, 1e3 * result.held_out_rms, unit,
+                1e3 * result.held_out_median, unit);
   std::string text = WorseText(result, unit) + line +
                      HeldOutText(result, unit) + CameraText(measured) +
                      LossText(result) + OutlierText(measured, result) +
                      MisfitText(result, unit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
-  for (const std::string& sentence : result.held) {
-    text += "held       " + sentence + "\n";
-  }
-  return text + ObservedText(result) + InstrumentText(result) +
-         VerdictText(Shortcomings(robot, result));
-}
-
-json PoseJson(const Robot& robot, const PoseMeasurements& measured,
-              const PoseCalibration& result) {
-  json geometry = json::array(), outliers = json::array();
-  for (const GeometryEstimate& p : result.parameters) {
-    geometry.push_back(
-        {{"name", p.name},
-         {"unit", p.unit},
-         {"nominal", p.nominal},
-         {"value", JsonNumber(p.value)},
-         {"stddev", JsonNumber(p.stddev)},
-         {"prior_stddev", p.prior > 0 ? JsonNumber(p.prior) : json(nullptr)},
-         {"identifiable", p.identifiable}});
-  }
-  const double u95 = result.misfit.instrument_u95;
-  for (const int k : result.outliers) outliers.push_back(measured.row[k]);
-  return {{"format", "armcal calibration 1"},
-          {"robot", robot.name},
-          {"estimate", "refined"},
-          {"geometry", geometry},
-          {"held", result.held},
-          {"observed", ObservedJson(result)},
-          {"instrument", InstrumentJson(result)},
-          {"verdict", VerdictJson(Shortcomings(robot, result))},
-          {"poses",
-           {{"count", measured.size()},
-            {"kind", Kind(measured)},
-            {"unit", result.unit},
-            {"rms", result.rms},
-            {"max", result.max},
-            {"median", result.median},
-            {"before_rms", result.before_rms},
-            {"loss", LossName(result.loss)},
-            {"cross_validated_rms", result.held_out_rms},
-            {"cross_validated_median", result.held_out_median},
-            {"file_cross_validated_rms",
-             result.file_held_out_rms > 0 ? JsonNumber(result.file_held_out_rms)
-                                          : json(nullptr)},
-            {"compared",
-             {{"rms", result.compared_rms},
-              {"file_rms", result.file_compared_rms},
-              {"excess", result.held_out_excess},
-              {"excess_stderr", result.held_out_excess_stderr}}},
-            {"validation", ValidationJson(result)},
-            {"noise_stddev", result.noise.position},
-            {"pixel_stddev", measured.pixel_stddev > 0
-                                 ? JsonNumber(measured.pixel_stddev)
-                                 : json(nullptr)},
-            {"outlier_rows", outliers},
-            {"instrument_u95", u95 > 0 ? JsonNumber(u95) : json(nullptr)},
-            {"instrument_ratio", JsonNumber(result.misfit.instrument_ratio)},
-            {"order_correlation", result.misfit.order_correlation},
-            {"coupling", CouplingJson(robot, result)},
-            {"notes", NotesJson(result)}}},
-          {"termination",
-           {{"converged", result.solved}, {"reason", result.reason}}}};
+  return text + HeldText(result.held) + ObservedText(result) +
+         InstrumentText(result) + VerdictText(Shortcomings(robot, result));
 }
 
 }  // namespace armcal

@@ -1,11 +1,11 @@
 #include "calib/poses/shared_errors.h"
 
-#include <Eigen/QR>
-#include <Eigen/SparseCore>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "calib/poses/repeated_poses.h"
+#include "calib/poses/variance_components.h"
 
 namespace armcal {
 namespace {
@@ -14,8 +14,11 @@ using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Sparse = Eigen::SparseMatrix<double>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// Per turn, of what a joint errs by: higher ones change between poses, and are
+// theirs.
+constexpr int kJointHarmonics = 2;
 
 // A target's, a pose's or a wire's coordinates among the residuals.
 struct PoseReading {
@@ -63,114 +66,99 @@ Matrix3d Cross(const Vector3d& v) {
   return cross;
 }
 
-// Of independent errors e = sum_k Z_k a_k, with as many amounts a_k as columns,
-// all of one variance.
-struct Component {
-  Sparse Z;
-  MatrixXd G;  // Z'Q
-  MatrixXd S;  // G'G
-};
-
-// Scaled to a mean square of 1 a residual, as the identity is.
-Component MakeComponent(const Triplets& entries, Eigen::Index columns,
-                        const MatrixXd& Q) {
-  Component component;
-  component.Z.resize(Q.rows(), columns);
-  component.Z.setFromTriplets(entries.begin(), entries.end());
-  const double square = component.Z.squaredNorm();
-  component.Z *= std::sqrt(static_cast<double>(Q.rows()) / square);
-  component.G = component.Z.transpose() * Q;
-  component.S = component.G.transpose() * component.G;
-  return component;
+// Errors of each coordinate by itself.
+Triplets Own(Eigen::Index residuals) {
+  Triplets own;
+  for (int row = 0; row < residuals; ++row) own.emplace_back(row, row, 1);
+  return own;
 }
 
-// Errors of each coordinate by itself; of a pose, by which all its readings are
-// displaced alike; and, of several targets, by which it is turned.
-std::vector<Component> ComponentsOf(const std::vector<PoseReading>& readings,
-                                    int width, const MatrixXd& Q) {
-  Triplets own, moved, turned;
+// Those of a pose, by which all its readings are displaced alike and, of
+// several targets, turned.
+void AddPoseErrors(const std::vector<PoseReading>& readings, int width,
+                   const MatrixXd& Q, std::vector<VarianceComponent>* all) {
+  Triplets moved, turned;
   int poses = 0;
   for (const PoseReading& reading : readings) {
     poses = std::max(poses, reading.pose + 1);
     const Matrix3d lever = -Cross(reading.lever);
     for (int c = 0; c < width; ++c) {
       const auto row = static_cast<int>(reading.first) + c;
-      own.emplace_back(row, row, 1);
       moved.emplace_back(row, width * reading.pose + c, 1);
       for (int a = 0; a < 3 && reading.lever.norm() > 0; ++a) {
         turned.emplace_back(row, 3 * reading.pose + a, lever(c, a));
       }
     }
   }
-  std::vector<Component> all = {MakeComponent(own, Q.rows(), Q),
-                                MakeComponent(moved, width * poses, Q)};
-  if (!turned.empty()) all.push_back(MakeComponent(turned, 3 * poses, Q));
-  return all;
+  all->emplace_back(moved, width * poses, Q);
+  if (!turned.empty()) all->emplace_back(turned, 3 * poses, Q);
 }
 
-// |Z_j' M Z_k|^2 of M = I - Q Q', without M, which is as large as the square of
-// all residuals.
-double Shared(const Component& j, const Component& k) {
-  const Sparse product = j.Z.transpose() * k.Z;
-  double cross = 0;
-  for (int c = 0; c < product.outerSize(); ++c) {
-    for (Sparse::InnerIterator at(product, c); at; ++at) {
-      cross += at.value() * j.G.row(at.row()).dot(k.G.row(at.col()));
-    }
-  }
-  return product.squaredNorm() - 2 * cross + j.S.cwiseProduct(k.S).sum();
-}
-
-// Variances of components, of psi = M e: by E |Z_j' psi|^2 = sum_k variance_k
-// |Z_j' M Z_k|^2, which is unbiased whatever the estimate has taken out of the
-// errors (MINQUE; Rao 1971, J. Multivariate Analysis 1; Searle, Casella and
-// McCulloch 1992, ch. 11). One below 0 is none, and the others are solved for
-// again.
-VectorXd VariancesOf(const std::vector<Component>& components,
-                     const VectorXd& psi) {
-  const auto size = static_cast<Eigen::Index>(components.size());
-  MatrixXd shared(size, size);
-  VectorXd moments(size);
-  for (Eigen::Index j = 0; j < size; ++j) {
-    moments[j] = (components[j].Z.transpose() * psi).squaredNorm();
-    for (Eigen::Index k = 0; k < size; ++k) {
-      shared(j, k) = Shared(components[j], components[k]);
-    }
-  }
-  std::vector<Eigen::Index> there;
-  for (Eigen::Index k = 0; k < size; ++k) there.push_back(k);
-  VectorXd variances = VectorXd::Zero(size);
-  while (!there.empty()) {
-    const VectorXd solved =
-        shared(there, there).colPivHouseholderQr().solve(moments(there));
-    Eigen::Index least = 0;
-    if (!(solved.minCoeff(&least) < 0)) {
-      for (size_t k = 0; k < there.size(); ++k) {
-        variances[there[k]] = solved[static_cast<Eigen::Index>(k)];
+// Those of joints that turn, by which neighbouring poses are displaced alike:
+// each stands where it says plus a_1 cos q + a_2 sin q + a_3 cos 2q + a_4 sin
+// 2q, as eccentric wheels and scales, oval bearings and weight have it
+// (calib/poses/effects).
+Triplets JointErrors(const ArmGeometry& geometry, const MatrixXd& q,
+                     const MatrixXd& by_all) {
+  Triplets entries;
+  const Eigen::Index per_row = by_all.rows() / q.rows();
+  for (int joint = 0; joint < geometry.num_joints(); ++joint) {
+    const int zero = geometry.ZeroOf(joint);
+    if (zero < 0) continue;
+    for (Eigen::Index k = 0; k < by_all.rows(); ++k) {
+      const double angle = q(k / per_row, joint), by_joint = by_all(k, zero);
+      if (by_joint == 0) continue;
+      const auto row = static_cast<int>(k);
+      for (int n = 1; n <= kJointHarmonics; ++n) {
+        const int column = 2 * (kJointHarmonics * joint + n - 1);
+        entries.emplace_back(row, column, std::cos(n * angle) * by_joint);
+        entries.emplace_back(row, column + 1, std::sin(n * angle) * by_joint);
       }
-      break;
     }
-    there.erase(there.begin() + least);
   }
-  return variances;
+  return entries;
+}
+
+// Those of the arm's own parameters that nobody asked for: they stay as in the
+// file, which may be wrong, each by as much as it would be allowed to be
+// (GeometryPrior).
+Triplets FileErrors(const PoseFit& fit, const MatrixXd& by_all) {
+  const std::vector<bool> wanted = fit.Wanted(fit.refine());
+  Triplets entries;
+  for (int p = 0; p < fit.geometry().size(); ++p) {
+    if (wanted[p]) continue;
+    for (Eigen::Index k = 0; k < by_all.rows(); ++k) {
+      const double error = fit.PriorOf(p) * by_all(k, p);
+      if (error != 0) entries.emplace_back(static_cast<int>(k), p, error);
+    }
+  }
+  return entries;
 }
 
 }  // namespace
 
 // Priors of the instrument are no errors of poses; they have variance 1 each.
 MatrixXd ScoreCovariance(const PoseFit& fit, const std::vector<int>& rows,
-                         const VectorXd& residuals, const MatrixXd& basis,
-                         int num_unknowns) {
-  const Eigen::Index p = basis.cols();
+                         const MatrixXd& by_all, const VectorXd& residuals,
+                         const MatrixXd& basis) {
+  const MatrixXd Q = basis.topRows(residuals.size());
+  std::vector<VarianceComponent> components;
+  components.emplace_back(Own(Q.rows()), Q.rows(), Q);
   const std::vector<PoseReading> readings = ReadingsOf(fit, rows);
-  if (!AnyPoseIsReadTwice(readings)) {
-    return fit.VarianceFactor(residuals, num_unknowns) *
-           MatrixXd::Identity(p, p);
+  if (AnyPoseIsReadTwice(readings)) {
+    AddPoseErrors(readings, fit.Coordinates(), Q, &components);
   }
+  const Triplets joints =
+      JointErrors(fit.geometry(), fit.measured().q(rows, Eigen::all), by_all);
+  if (!joints.empty()) {
+    components.emplace_back(
+        joints, 2 * kJointHarmonics * fit.geometry().num_joints(), Q);
+  }
+  const Triplets file = FileErrors(fit, by_all);
+  if (!file.empty()) components.emplace_back(file, fit.geometry().size(), Q);
   const LossScores scores = fit.Scores(residuals);
-  const std::vector<Component> components = ComponentsOf(
-      readings, fit.Coordinates(), basis.topRows(residuals.size()));
   const VectorXd variances = VariancesOf(components, scores.psi);
+  const Eigen::Index p = basis.cols();
   MatrixXd sum = MatrixXd::Zero(p, p);
   for (size_t k = 0; k < components.size(); ++k) {
     sum += variances[static_cast<Eigen::Index>(k)] * components[k].S;

@@ -10,6 +10,8 @@
 #include "calib/poses/some_poses.h"
 #include "calib/poses/start.h"
 #include "model/text/format.h"
+#include "model/text/option_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -20,6 +22,10 @@ constexpr int kEnoughPoses = 60;
 // units. The frame has 6 unknowns and the targets 3 each, of which none makes
 // up for a factor of joint positions or of all lengths.
 constexpr double kTinyPart = 0.1;
+// A step that lowers the squares by less than this was the last: distances then
+// fall by half of it, where a factor of ten is asked for. In wrong units fits
+// may creep for ever.
+constexpr double kLastFall = 1e-3;
 constexpr double kDegree = M_PI / 180;
 
 // What numbers are times those that were read.
@@ -52,7 +58,7 @@ double GeometryLeaves(const Robot& robot, const PoseMeasurements& measured) {
   const std::vector<bool> free =
       HoldUnseen(fit, fit.Wanted(options.refine), rows, at, nullptr);
   if (!fit.WhyTooFew(free).empty() ||
-      !fit.Solve(free, rows, options.loss, &at)) {
+      !fit.Solve(free, rows, options.loss, &at, kLastFall)) {
     return std::numeric_limits<double>::infinity();
   }
   return Median(fit.Distances(rows, at));
@@ -118,6 +124,12 @@ std::string WrongUnits(const Robot& robot, const PoseMeasurements& measured) {
              " (the file's geometry is then %.3g %% of the poses' extent "
              "away from them, as read %.3g %%)",
              100 * least, 100 * left / extent);
+}
+
+void RequireUnits(const Robot& robot, const PoseMeasurements& measured,
+                  const char* option) {
+  const std::string wrong = WrongUnits(robot, measured);
+  if (!wrong.empty()) throw OptionError(OptionName(option) + ": " + wrong);
 }
 
 }  // namespace armcal

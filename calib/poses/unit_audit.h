@@ -13,4 +13,8 @@ namespace armcal {
 // where other units do not make them follow either.
 std::string WrongUnits(const Robot& robot, const PoseMeasurements& measured);
 
+// Throws OptionError of the option that names the poses where it says so.
+void RequireUnits(const Robot& robot, const PoseMeasurements& measured,
+                  const char* option);
+
 }  // namespace armcal

@@ -97,11 +97,9 @@ void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
                        " can count as errors of measurement");
 }
 
-// By more than the standard error of their difference, pose by pose, which is
-// the bar at which a loss is chosen, too (cross_validation.h).
+// Which is also what a loss is chosen by (cross_validation.h).
 bool IsClearlyWorseThanFile(const PoseCalibration& result) {
-  return IsWorseThanFile(result) &&
-         result.held_out_excess > result.held_out_excess_stderr;
+  return IsWorseThanFile(result) && result.held_out_excess.is_clear();
 }
 
 std::string WorseThanFile(const PoseCalibration& result) {
@@ -119,7 +117,7 @@ std::string WorseThanFile(const PoseCalibration& result) {
 // whatever little the two predictions differ along it.
 bool IsWorseThanFile(const PoseCalibration& result) {
   return result.solved && result.refined && result.file_held_out_rms > 0 &&
-         result.held_out_excess > 0;
+         result.held_out_excess.mean > 0;
 }
 
 // What makes the geometry useless, or a poor account of what was measured.

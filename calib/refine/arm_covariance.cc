@@ -28,11 +28,11 @@ constexpr double kMostInflation = 1e8;
 // With A the information of the data and P that of the prior, the estimate's
 // error is G (scores + P times the prior's error), G = (A + P)^-1. Its
 // covariance is
-//   G (S + J'J + P) G,
-// S being the long-run covariance of the torques' scores and J the poses'
-// whitened Jacobian, whose errors are independent. With S = A it would be G
-// itself, the posterior's covariance; torque rows overlap, and S is larger.
-// Deviations are raised as those of the linear calibration are.
+//   G (S + F'F + P) G,
+// S being the long-run covariance of the torques' scores and F'F that of the
+// poses'. With these as large as A it would be G itself, the posterior's
+// covariance; but torque rows overlap, and poses share errors. Deviations are
+// raised as those of the linear calibration are.
 //
 // Whether a parameter is identifiable must not hang on how far the file is
 // trusted for it: its variance is compared between a file trusted to 100 % and
@@ -44,15 +44,15 @@ ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const LinkInformation& torques,
                                     double torque_constants_stddev) {
   const std::vector<int> free = unknowns.FreeIndices();
-  const MatrixXd poses = fit.PoseRows(at);
-  MatrixXd data(torques.R.rows() + poses.rows(), unknowns.size());
-  data << torques.R, poses;
+  const PoseInformation poses = fit.InformByPoses(at);
+  MatrixXd data(torques.R.rows() + poses.rows.rows(), unknowns.size());
+  data << torques.R, poses.rows;
   const auto trusting = [&](const ArmTrust& t) {
     return Posterior(data, fit.PriorInformation(t), free);
   };
   const Posterior posterior = trusting(trust);
   const MatrixXd rest =
-      posterior.Sandwich(poses) +
+      posterior.Sandwich(poses.scores) +
       posterior.Sandwich(SquareRoot(fit.PriorInformation(trust)));
   ArmCovariance result;
   result.covariance = RaiseToLogScatter(

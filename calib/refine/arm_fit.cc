@@ -251,21 +251,4 @@ MatrixXd ArmFit::PriorInformation(const ArmTrust& trust) const {
   return information;
 }
 
-// The poses' Jacobian, divided by the root of what a robust loss makes of the
-// variance (VarianceFactor): its square is then the inverse of a covariance.
-MatrixXd ArmFit::PoseRows(const ArmValues& values) const {
-  if (poses_ == nullptr) return MatrixXd::Zero(0, unknowns_.size());
-  VectorXd residuals;
-  const MatrixXd J =
-      poses_->Jacobian(poses_->AllRows(), values.poses, &residuals);
-  int num_free = 0;
-  for (int k = unknowns_.geometry_begin(); k < unknowns_.size(); ++k) {
-    num_free += unknowns_.is_free(k);
-  }
-  MatrixXd rows = MatrixXd::Zero(J.rows(), unknowns_.size());
-  rows.rightCols(J.cols()) =
-      J / std::sqrt(poses_->VarianceFactor(residuals, num_free));
-  return rows;
-}
-
 }  // namespace armcal

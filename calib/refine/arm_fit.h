@@ -6,6 +6,7 @@
 #include "calib/poses/fit.h"
 #include "calib/refine/arm_unknowns.h"
 #include "calib/refine/link_equations.h"
+#include "calib/refine/pose_information.h"
 
 namespace armcal {
 
@@ -31,8 +32,9 @@ class ArmFit {
 
   // The prior's information, near the file's values.
   Eigen::MatrixXd PriorInformation(const ArmTrust& trust) const;
-  // The poses' Jacobian by the unknowns at `values`, whitened.
-  Eigen::MatrixXd PoseRows(const ArmValues& values) const;
+  PoseInformation InformByPoses(const ArmValues& values) const {
+    return armcal::InformByPoses(unknowns_, poses_, values);
+  }
 
  private:
   const ArmUnknowns& unknowns_;

@@ -250,12 +250,12 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   result.solved = Solve(prepared, fit, &result);
   if (!result.solved) return result;
   LinkPass pass(unknowns_, linear_, options_.progress, prepared);
-  Report(
-      EstimateArmCovariance(unknowns_, fit, options_.trust, values_,
-                            pass.Inform(values_, noise_, fit.PoseRows(values_),
-                                        fit.PriorInformation(options_.trust)),
-                            linear_.torque_constants_stddev),
-      &result);
+  Report(EstimateArmCovariance(
+             unknowns_, fit, options_.trust, values_,
+             pass.Inform(values_, noise_, fit.InformByPoses(values_).rows,
+                         fit.PriorInformation(options_.trust)),
+             linear_.torque_constants_stddev),
+         &result);
   result.robot = unknowns_.Apply(values_);
   result.refined_geometry =
       unknowns_.refines_geometry() || poses != nullptr ||

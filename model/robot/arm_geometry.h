@@ -73,6 +73,16 @@ class ArmGeometry {
   // Whether parameter k is the base's, the tool's: six each, first and last.
   static bool IsBase(int k) { return k < 6; }
   bool IsTool(int k) const { return k >= size() - 6; }
+  int num_joints() const { return static_cast<int>(links_.size()); }
+  // The parameter that is added to the position of a joint that turns, its
+  // <link>.theta, which each convention has behind the joint; -1 of one that
+  // slides.
+  int ZeroOf(int joint) const {
+    const ElementaryTransform* const step = &steps_[links_[joint].joint];
+    return step->kind == ElementaryTransform::Kind::kRotation
+               ? (step + 1)->parameter
+               : -1;
+  }
   std::vector<std::string> Names() const;
   std::vector<std::string> Units() const;  // "m" or "rad"
   Eigen::VectorXd Values() const;

@@ -8,7 +8,7 @@ expect_empty(err)
 expect_text(out "40, targets" "upper_arm.a                400.0000 ->     402.0000"
             "forearm.theta" "0.1000"
             "forearm.a                  300.0000 ->     299.0000"
-            "upper_arm.theta cannot be told from")
+            "upper_arm.theta .d")
 file(READ ${WORK_DIR}/result/calibration.json json)
 string(JSON before GET "${json}" poses before_rms)
 string(JSON after GET "${json}" poses rms)

@@ -9,42 +9,64 @@ namespace {
 
 std::string MillimetresOf(double x) { return Format("%.3g mm", 1e3 * x); }
 
-// What a probability is worth in words, as in the sentence on logs
-// (diagnose/named_effects.h).
-const char* InWords(double probability) {
-  constexpr double kConfident = .8;
-  return probability >= kConfident ? "lacks " : "probably lacks ";
-}
-
-// "one of sag of elbow and gear_ratio of elbow"
-std::string OneOf(const PoseFinding& finding) {
-  std::vector<std::string> names = {finding.name};
-  for (const PoseEquivalent& other : finding.equivalents) {
-    names.push_back(other.name);
+// Names with by how much each moves the targets, which tells what matters:
+// "sag (3.41 mm rms)"; those that are more probable than in a sentence on logs
+// that says "probably" (diagnose/named_effects.h), and others.
+struct Claims {
+  void Add(const PoseFinding& finding) {
+    constexpr double kConfident = .8;
+    (finding.probability >= kConfident ? sure : unsure)
+        .push_back(finding.name + " (" +
+                   MillimetresOf(finding.displacement_rms) + " rms)");
   }
-  return names.size() > 1 ? "one of " + Enumeration(names)
-                          : finding.name + " or another effect";
+  bool empty() const { return sure.empty() && unsure.empty(); }
+  // "lacks a and probably b", "probably lacks a and b".
+  std::string After(const std::string& verb) const {
+    if (sure.empty()) return "probably " + verb + Enumeration(unsure);
+    std::vector<std::string> all = sure;
+    for (const std::string& name : unsure) all.push_back("probably " + name);
+    return verb + Enumeration(all);
+  }
+  std::vector<std::string> sure, unsure;
+};
+
+// "one of joint_step of wrist (40 %), joint_drift of wrist (35 %) and others"
+std::string OneOf(const PoseFinding& finding) {
+  const auto with_chance = [](const std::string& name, double probability) {
+    return name + Format(" (%.0f %%)", 100 * probability);
+  };
+  std::vector<std::string> names = {
+      with_chance(finding.name, finding.probability)};
+  for (const PoseEquivalent& other : finding.equivalents) {
+    names.push_back(with_chance(other.name, other.probability));
+  }
+  if (names.size() == 1) names.emplace_back("another effect");
+  return "one of " + Enumeration(names);
 }
 
-// "lacks sag of elbow; it probably lacks one of .., which these poses cannot
-// tell apart"
-std::string LackedText(const std::vector<PoseFinding>& findings) {
-  std::vector<std::string> named, alike;
-  double least = 1, least_alike = 1;
+// What the arm does at any time, what changed while it was measured, and where
+// the poses leave open which of a few it is: a sentence each. Where something
+// changed in the latter case is among its names.
+std::string FoundText(const std::vector<PoseFinding>& findings) {
+  Claims lacked, changed;
+  std::vector<std::string> open;
   for (const PoseFinding& finding : findings) {
-    if (IsNamed(finding)) {
-      named.push_back(finding.name);
-      least = std::min(least, finding.probability);
+    if (!IsNamed(finding)) {
+      open.push_back(OneOf(finding));
     } else {
-      alike.push_back(OneOf(finding));
-      least_alike = std::min(least_alike, 1 - finding.none);
+      (finding.placed.effect->in_order ? changed : lacked).Add(finding);
     }
   }
   std::string text;
-  if (!named.empty()) text = InWords(least) + Enumeration(named);
-  if (alike.empty()) return text;
-  return text + (text.empty() ? "" : "; it ") + InWords(least_alike) +
-         Enumeration(alike) + ", which these poses cannot tell apart";
+  if (!lacked.empty()) text += "The geometry " + lacked.After("lacks ") + ". ";
+  if (!changed.empty()) {
+    text += "While the poses were measured something " +
+            changed.After("changed: ") + ". ";
+  }
+  for (const std::string& few : open) {
+    text += "These poses cannot tell which, but they show " + few + ". ";
+  }
+  return text;
 }
 
 // The likeliest of what is not claimed, beside none.
@@ -53,8 +75,9 @@ std::string UnlikelyText(const PoseDiagnosis& diagnosis) {
   const auto best = std::max_element(
       diagnosis.unlikely.begin(), diagnosis.unlikely.end(),
       [](const auto& a, const auto& b) { return a.none > b.none; });
-  return Format(" None is likelier (%.0f %%) than ", 100 * best->none) +
-         best->name + Format(" (%.0f %%).", 100 * best->probability);
+  return " The likeliest, " + best->name +
+         Format(" (%.0f %%), is less likely than none (%.0f %%).",
+                100 * best->probability, 100 * best->none);
 }
 
 }  // namespace
@@ -67,19 +90,24 @@ std::string PoseSentence(const PoseDiagnosis& diagnosis) {
   const std::string left = MillimetresOf(gap.held_out_after);
   switch (diagnosis.verdict) {
     case PoseVerdict::kNoiseFloor:
-      return "The poses show no effect beyond the geometry, which leaves " +
-             left + " of held-out poses." + UnlikelyText(diagnosis);
+      return "The poses show no effect beyond the geometry, by which held-out "
+             "poses are " +
+             left + " rms away" +
+             (diagnosis.misfit.instrument_u95 > 0
+                  ? "."
+                  : "; the file states no uncertainty of the instrument "
+                    "(u95_1) to hold that against.") +
+             UnlikelyText(diagnosis);
     case PoseVerdict::kUnknown:
-      return "The geometry leaves " + left +
-             " of held-out poses, which is more than noise, and no effect of "
-             "the list explains it." +
+      return "By the geometry held-out poses are " + left +
+             " rms away, which is more than noise, and no effect of the list "
+             "explains it." +
              UnlikelyText(diagnosis);
     default:
       break;
   }
-  return "The geometry " + LackedText(diagnosis.findings) +
-         ": held-out poses are " + left + " rms away instead of " +
-         MillimetresOf(gap.held_out_geometry) +
+  return FoundText(diagnosis.findings) + "Held-out poses are then " + left +
+         " rms away instead of " + MillimetresOf(gap.held_out_geometry) +
          (diagnosis.verdict == PoseVerdict::kPartlyExplained
               ? ", which is still more than noise."
               : ".");

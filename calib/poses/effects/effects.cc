@@ -34,7 +34,7 @@ std::string PlacedName(const PoseEffect& effect, const PoseCampaign& campaign,
     return name + " from " + campaign.word + " " +
            std::to_string(campaign.number[place.begin]) + " on";
   }
-  return name + ", " + campaign.word + "s " +
+  return name + " of " + campaign.word + "s " +
          std::to_string(campaign.number[place.begin]) + " to " +
          std::to_string(campaign.number[place.end - 1]);
 }

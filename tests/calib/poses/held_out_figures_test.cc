@@ -33,9 +33,9 @@ TEST(HeldOutFigures, AreComparedWithoutGrossErrors) {
   c.solved = c.refined = true;
   c.held_out_rms = .2;  // of one pose a metre off
   c.file_held_out_rms = .19;
-  c.held_out_excess = -1e-5;
+  c.held_out_excess.mean = -1e-5;
   EXPECT_FALSE(IsWorseThanFile(c));
-  c.held_out_excess = 1e-5;
+  c.held_out_excess.mean = 1e-5;
   EXPECT_TRUE(IsWorseThanFile(c));
   c.file_held_out_rms = 0;  // the file's geometry was not fitted
   EXPECT_FALSE(IsWorseThanFile(c));
@@ -51,7 +51,7 @@ TEST(HeldOutFigures, CompareTheFileAsItPredicts) {
   ASSERT_TRUE(c.solved);
   EXPECT_GT(c.file_held_out_rms, c.before_rms);
   EXPECT_TRUE(IsWorseThanFile(c));
-  EXPECT_GT(c.held_out_excess, c.held_out_excess_stderr);
+  EXPECT_TRUE(c.held_out_excess.is_clear());
   EXPECT_THAT(Shortcomings(plant.robot, c),
               Contains(HasSubstr("the refined geometry is worse")));
   EXPECT_THAT(PoseReport(plant.robot, m, c), StartsWith("WORSE than the file"));
@@ -71,8 +71,8 @@ TEST(HeldOutFigures, AreJudgedByTheirScatter) {
   c.file_held_out_rms = 5e-3;
   EXPECT_THAT(PoseNotes(c), Not(Contains(HasSubstr("worse"))));
   c.compared_rms = 5.5e-3;
-  c.held_out_excess = 1e-6;
-  c.held_out_excess_stderr = 2e-6;
+  c.held_out_excess.mean = 1e-6;
+  c.held_out_excess.stderr_of_mean = 2e-6;
   EXPECT_THAT(PoseNotes(c), Contains(HasSubstr("5.5 mm rms")));
   EXPECT_THAT(Shortcomings(plant.nominal, c), IsEmpty());
 }

@@ -6,7 +6,11 @@
 
 #include <cmath>
 
+#include "calib/calibrate_parts.h"
+#include "calib/diagnose_poses.h"
 #include "calib/poses/diagnosis/diagnosis.h"
+#include "model/text/option_error.h"
+#include "model/text/option_name.h"
 #include "tests/fixtures/sample_poses.h"
 
 namespace armcal::unit_audit_test {
@@ -42,6 +46,33 @@ TEST(UnitAudit, SaysInWhichUnitsPosesWereMeant) {
     EXPECT_THAT(told(M_PI / 180, 1), HasSubstr("without [deg]"));
     EXPECT_THAT(told(1, 1e-3), HasSubstr("without [mm]"));
   }
+}
+
+// Both files are looked at before either is used.
+TEST(UnitAudit, LooksAtPosesThatWereKeptOut) {
+  Plant plant("UR5 6R", 3);
+  CalibrateOptions calibrate;
+  DiagnosePosesOptions diagnose;
+  calibrate.poses = plant.Measure(Instrument::kTargets, 30, kNoise);
+  PoseMeasurements others = plant.Measure(Instrument::kTargets, 20, kNoise);
+  Scale(180 / M_PI, 1, &others);
+  calibrate.pose_validation = diagnose.validation = others;
+  const auto refusal = [](const auto& run) -> std::string {
+    try {
+      run();
+    } catch (const OptionError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  const auto says =
+      AllOf(HasSubstr(OptionName("validate") + ": "), HasSubstr("'q1 [deg]'"));
+  EXPECT_THAT(refusal([&] { CalibrateFromPoses(plant.nominal, calibrate); }),
+              says);
+  EXPECT_THAT(refusal([&] {
+                DiagnosePoses(plant.nominal, *calibrate.poses, diagnose);
+              }),
+              says);
 }
 
 // What other units do not explain is no matter of units, and no effect either.

@@ -61,6 +61,43 @@ INSTANTIATE_TEST_SUITE_P(, Instruments,
                                          Instrument::kPoses,
                                          Instrument::kWire));
 
+// Read again, poses tell nothing new of an arm that does not stand where it
+// says.
+TEST(TorqueAndPoses, ReadingsOfAPoseShareItsError) {
+  BentArm arm("UR5 6R", 7);
+  LogReaderOptions reader;
+  reader.joint_names = arm.file.JointNames();
+  LogSet log({arm.Record(10)}, reader, {});
+  PoseMeasurements once = arm.Measure(Instrument::kTargets, 60, 1e-4);
+  for (double& q : once.q.reshaped()) q += 1e-3 * Normal(&arm.random);
+  PoseMeasurements thrice = once;
+  std::vector<int> rows;
+  for (int k = 0; k < 3 * once.size(); ++k) rows.push_back(k / 3);
+  thrice.q = once.q(rows, Eigen::all);
+  for (Eigen::MatrixXd& target : thrice.targets) {
+    target = target(rows, Eigen::all).eval();
+    for (double& x : target.reshaped()) x += 1e-6 * Normal(&arm.random);
+  }
+  thrice.row.resize(rows.size());
+  const auto linear = CalibrateLinear(arm.file, {}, log, nullptr);
+  const auto calibrate = [&](const PoseMeasurements& poses) {
+    return CalibrateNonlinear(arm.file, linear, Options(RefineGeometry::kAll),
+                              log, nullptr, &poses);
+  };
+  const auto one = calibrate(once), three = calibrate(thrice);
+  ASSERT_TRUE(one.converged() && three.converged());
+  int compared = 0;
+  for (size_t k = 0; k < one.parameters.size(); ++k) {
+    const PhysicalParameter& p = one.parameters[k];
+    if (!p.geometry || !p.identifiable) continue;
+    const double ratio = three.parameters[k].stddev / p.stddev;
+    EXPECT_GT(ratio, .95) << p.name;  // the root of a third if they did
+    EXPECT_LT(ratio, 1.5) << p.name;  // poses weigh thrice beside torques
+    ++compared;
+  }
+  EXPECT_GE(compared, 10);
+}
+
 TEST(TorqueAndPoses, TooFewPosesAreRefused) {
   BentArm arm("UR5 6R", 8);
   LogReaderOptions reader;
