@@ -76,9 +76,11 @@ std::vector<double> PeaksBesideEvents(const GapFit& fit) {
   return peaks;
 }
 
-// The torque of each event on the joint that felt it most, over the noise's;
-// then what else peaks in the logs, which an event has to stand out from.
-std::vector<double> SizesOf(const GapFit& fit) {
+// The square of each event's torque on the joint that felt it most, over the
+// noise's; then of what else peaks in the logs, which an event has to stand out
+// from. Squares of normal errors have an exponential tail, whatever their
+// variance, which the peaks tell.
+std::vector<double> SquaresOf(const GapFit& fit) {
   std::vector<double> sizes;
   for (const GapEvent& event : fit.events()) {
     const Contact& contact = ToldContact(event);
@@ -88,6 +90,7 @@ std::vector<double> SizesOf(const GapFit& fit) {
   }
   const std::vector<double> others = PeaksBesideEvents(fit);
   sizes.insert(sizes.end(), others.begin(), others.end());
+  for (double& size : sizes) size *= size;
   return sizes;
 }
 
@@ -97,7 +100,7 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
                         const EffectEvidence& evidence) {
   FoundEffect found;
   found.evidence = evidence;
-  const std::vector<double> chances = ChancesAmongPeaks(SizesOf(fit));
+  const std::vector<double> chances = ChancesAmongPeaks(SquaresOf(fit));
   std::vector<double> probabilities;
   for (size_t k = 0; k < fit.events().size(); ++k) {
     probabilities.push_back(

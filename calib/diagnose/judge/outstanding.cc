@@ -5,16 +5,26 @@
 
 namespace armcal {
 
+namespace {
+
+// log of n! / (k! (n - k)!)
+double LogBinomial(int n, int k) {
+  return std::lgamma(n + 1.) - std::lgamma(k + 1.) - std::lgamma(n - k + 1.);
+}
+
+}  // namespace
+
 // What peaks have above a threshold, the smallest one's size, is exponential
 // (the generalized Pareto law of shape 0, Pickands 1975). Where m of them with
 // the sum S are all that is known of its mean, whose logarithm could be any
-// before, one more has as much as x above it with the probability
-//   (1 + x / S)^-m,
-// Lomax's law, and the largest of m + 1 with at most m + 1 times that
-// (Bonferroni). A peak is asked against those below it, and is no likelier than
-// these, so that several which stand out do not hide each other; that k of them
-// do is one question among others, of which it has the share 2^-k (weighted
-// Bonferroni, Genovese, Roeder and Wasserman 2006).
+// before, k more have as much as x above it, all of them, with the probability
+//   (1 + k x / S)^-m,
+// Lomax's law for k = 1, and any k of m + k with at most (m + k)! / (m! k!)
+// times that (Bonferroni). A peak is asked with those above it against those
+// below it, and is no likelier than these, so that several which stand out do
+// not hide each other; that k of them do is one question among others, of which
+// it has the share 2^-k (weighted Bonferroni, Genovese, Roeder and Wasserman
+// 2006).
 std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
   constexpr int kFewest = 3;  // above the threshold, that tell a mean
   std::vector<double> chances(sizes.size(), 1);
@@ -22,20 +32,20 @@ std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
   const double threshold = *std::min_element(sizes.begin(), sizes.end());
   for (size_t i = 0; i < sizes.size(); ++i) {
     double sum = 0;
-    int below = -1;  // the smallest is the threshold's
-    double questions = 1;
+    int below = -1, out = 0;  // the smallest is the threshold's
     for (const double size : sizes) {
       if (!(size < sizes[i])) {
-        questions *= 2;
+        ++out;
         continue;
       }
       sum += size - threshold;
       ++below;
     }
     if (below < kFewest || !(sum > 0)) continue;
-    chances[i] =
-        std::min(1., questions * (below + 1) *
-                         std::pow(1 + (sizes[i] - threshold) / sum, -below));
+    const double log_chance =
+        LogBinomial(below + out, out) -
+        below * std::log1p(out * (sizes[i] - threshold) / sum);
+    chances[i] = std::min(1., std::exp(log_chance + out * std::log(2.)));
   }
   const std::vector<double> alone = chances;
   for (size_t i = 0; i < sizes.size(); ++i) {
