@@ -25,7 +25,7 @@ bool HasDirection(const FoundEffect& found) {
     return parameter.search == Parameter::Search::kLinear;
   };
   const auto first = std::find_if(all.begin(), all.end(), is_linear);
-  if (IsBody(*found.effect)) return IsSignKnown(found);
+  if (IsCarriedBody(*found.effect)) return IsSignKnown(found);
   return std::count_if(all.begin(), all.end(), is_linear) == 1 &&
          first->sign == Parameter::Sign::kFree && !found.estimates.empty() &&
          found.estimates[0].value != 0;
@@ -58,7 +58,7 @@ std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
 }
 
 bool IsTakenOff(const FoundEffect& found) {
-  return IsBody(*found.effect) && HasDirection(found) &&
+  return IsCarriedBody(*found.effect) && HasDirection(found) &&
          found.estimates[0].value < 0;
 }
 

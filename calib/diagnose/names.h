@@ -13,9 +13,10 @@ std::string NameOf(const Effect& effect, int joint,
 
 // The same of an effect that is a change since a reference, with its direction
 // where the effect has one, which is where it has a single linear parameter of
-// either sign, or is a body that was added or taken off. What adds to a number that any robot has is told as more or less
-// of that ("less coulomb friction on elbow"), anything else with its signed
-// size ("torque gain on elbow (-0.08)", "payload (-0.5 kg)").
+// either sign, or is a body that was added or taken off. What adds to a number
+// that any robot has is told as more or less of that ("less coulomb friction on
+// elbow"), anything else with its signed size ("torque gain on elbow (-0.08)",
+// "payload (-0.5 kg)").
 std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis);
 
 // Whether it is a body that the robot lacks and the model has.

@@ -22,7 +22,7 @@ std::string FindingText(const InspectionFinding& finding) {
          "\n";
 }
 
-std::string CoverageText(const LogCoverage& coverage) {
+std::string CoverageText(const Robot& robot, const LogCoverage& coverage) {
   if (!coverage.known) {
     return coverage.reason.empty()
                ? ""
@@ -36,8 +36,10 @@ std::string CoverageText(const LogCoverage& coverage) {
   text += Format(
       "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
       coverage.residual_percent, coverage.noise_source.c_str());
-  for (const std::string& joint : coverage.unpowered) {
-    text += "  the torque of " + joint +
+  for (const UnpoweredJoint& joint : coverage.unpowered) {
+    const Joint& of = robot.links[joint.joint].joint;
+    text += "  the torque of " + of.name +
+            Format(", %.3g %s rms", joint.torque_rms, EffortUnit(of.type)) +
             ", is next to nothing beside gravity and inertia of the file's "
             "links: in another unit, or borne by something else\n";
   }
@@ -53,13 +55,18 @@ std::string CoverageText(const LogCoverage& coverage) {
   return text;
 }
 
-json CoverageJson(const LogCoverage& coverage) {
+json CoverageJson(const Robot& robot, const LogCoverage& coverage) {
   if (!coverage.known) return {{"known", false}, {"reason", coverage.reason}};
+  json unpowered = json::array();
+  for (const UnpoweredJoint& joint : coverage.unpowered) {
+    unpowered.push_back({{"joint", robot.links[joint.joint].joint.name},
+                         {"torque_rms", JsonNumber(joint.torque_rms)}});
+  }
   return {{"known", true},
           {"rank", coverage.rank},
           {"total", coverage.total},
           {"unseen", coverage.unseen},
-          {"unpowered", coverage.unpowered},
+          {"unpowered", std::move(unpowered)},
           {"advice", coverage.advice},
           {"residual_percent", JsonNumber(coverage.residual_percent)},
           {"outliers", coverage.outliers},
@@ -124,7 +131,7 @@ std::string LogText(const Robot& robot, const LogInspection& log) {
     }
     text += "\n";
   }
-  text += CoverageText(log.coverage);
+  text += CoverageText(robot, log.coverage);
   for (const InspectionFinding& finding : log.findings) {
     text += FindingText(finding);
   }
@@ -236,7 +243,7 @@ json ToJson(const Robot& robot, const std::vector<InspectionFinding>& of_robot,
                     {"residual_percent", JsonNumber(log.residual_percent)},
                     {"explains_torque", log.ExplainsTorque()},
                     {"joints", JointsJson(robot, log)},
-                    {"coverage", CoverageJson(log.coverage)},
+                    {"coverage", CoverageJson(robot, log.coverage)},
                     {"findings", FindingsJson(robot, log.findings)}});
   }
   json of_file = DescriptionJson(robot);

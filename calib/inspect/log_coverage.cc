@@ -128,12 +128,7 @@ LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
     coverage.known = true;
     coverage.rank = id.batch_rank;
     coverage.total = id.total;
-    for (const UnpoweredJoint& joint : result.unpowered) {
-      const Joint& of = robot.links[joint.joint].joint;
-      coverage.unpowered.push_back(of.name + Format(", %.3g %s rms",
-                                                    joint.torque_rms,
-                                                    EffortUnit(of.type)));
-    }
+    coverage.unpowered = result.unpowered;
     for (const auto& d : id.directions) coverage.unseen.push_back(d.text);
     coverage.residual_percent = result.training->moving().stacked_percent;
     coverage.noise_source = NoiseSourceName(result.sample_noise[0].source);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/linear/used_equations.h"
 #include "calib/logs/inspection_finding.h"
 #include "model/log_files/log_reader.h"
 #include "model/robot/robot.h"
@@ -19,9 +20,9 @@ struct LogCoverage {
   // What calibrating on it leaves, %, and its gross errors per joint.
   double residual_percent = 0;
   std::vector<long> outliers;
-  // Of joints whose torque is next to nothing beside what gravity and inertia
-  // of the file's links need (UnpoweredJoint): what it is, in a phrase.
-  std::vector<std::string> unpowered;
+  // Joints whose torque is next to nothing beside what gravity and inertia of
+  // the file's links need.
+  std::vector<UnpoweredJoint> unpowered;
   std::string noise_source;  // repeats, standstill or what the model leaves
   std::string time_base;     // samples, steps and gaps in a sentence
   double stamp_wander = 0;   // s, of stamps beside even samples

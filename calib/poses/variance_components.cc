@@ -38,10 +38,11 @@ VarianceComponent::VarianceComponent(
 // By E |Z_j' psi|^2 = sum_k variance_k |Z_j' M Z_k|^2, which is unbiased
 // whatever the estimate has taken out of the errors (MINQUE; Rao 1971, J.
 // Multivariate Analysis 1; Searle, Casella and McCulloch 1992, ch. 11). What
-// the fit has taken whole leaves no equation, and has no variance by the
-// pivoted QR.
+// the fit has taken whole leaves no equation, but what rounding leaves of
+// |Z' Z|^2, and has no variance.
 VectorXd VariancesOf(const std::vector<VarianceComponent>& components,
                      const VectorXd& psi) {
+  constexpr double kRounded = 1e-9;  // what rounding may leave of a square
   const auto size = static_cast<Eigen::Index>(components.size());
   MatrixXd shared(size, size);
   VectorXd moments(size);
@@ -52,7 +53,11 @@ VectorXd VariancesOf(const std::vector<VarianceComponent>& components,
     }
   }
   std::vector<Eigen::Index> there;
-  for (Eigen::Index k = 0; k < size; ++k) there.push_back(k);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const double whole =
+        (components[k].Z.transpose() * components[k].Z).eval().squaredNorm();
+    if (shared(k, k) > kRounded * whole) there.push_back(k);
+  }
   VectorXd variances = VectorXd::Zero(size);
   while (!there.empty()) {
     const VectorXd solved =

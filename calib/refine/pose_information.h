@@ -13,7 +13,9 @@ struct PoseInformation {
   // A of the information A'A that a fit has of them: the Jacobian, whitened.
   Eigen::MatrixXd rows;
   // F with F'F the covariance of their errors' pull at the estimate, A'A where
-  // errors are independent. Readings of one pose, and neighbouring poses, share
+  // errors are independent. What errors share is told from what a fit of poses
+  // alone would leave: where priors or torques hold unknowns, it is that much
+  // at most. Readings of one pose, and neighbouring poses, share
   // theirs (calib/poses/shared_errors.h).
   Eigen::MatrixXd scores;
 };

@@ -7,7 +7,7 @@
 namespace armcal {
 inline namespace effects {
 
-bool IsBody(const Effect& effect) {
+bool IsCarriedBody(const Effect& effect) {
   return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                      [](const EffectParameter& parameter) {
                        return parameter.sign == EffectParameter::Sign::kAsFirst;

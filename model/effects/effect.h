@@ -143,7 +143,7 @@ struct Effect {
 
 // Whether it is a body that moves with the arm: its inertia has the sign of its
 // mass.
-bool IsBody(const Effect& effect);
+bool IsCarriedBody(const Effect& effect);
 // Whether `mean` is one of the law's `means`.
 bool HasMean(const Effect& law, const Effect& mean);
 // "N m s/rad" from "E s/P" for a revolute joint.

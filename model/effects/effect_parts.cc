@@ -50,7 +50,7 @@ double MovingMass(const Robot& robot) {
 bool IsOfAnArm(const Robot& robot, double mass) {
   constexpr double kMost = 3;
   const double moving = MovingMass(robot);
-  return !(moving > 0 && std::abs(mass) > kMost * moving);
+  return !(moving > 0 && (mass > kMost * moving || mass < -moving));
 }
 
 double Duration(const EffectSite& site) {

@@ -24,8 +24,9 @@ double Radian(const EffectSite& site);
 double CarriedInertia(const EffectSite& site);
 double MovingMass(const Robot& robot);
 // Whether an arm can carry it, or have lost it: no arm carries three times what
-// moves of it; industrial arms carry a third to a fifth of that. Of a robot
-// without masses any, and any that data do not tell (NaN).
+// moves of it (industrial arms carry a third to a fifth of that), and none
+// loses more than moves of it. Of a robot without masses any, and any that data
+// do not tell (NaN).
 bool IsOfAnArm(const Robot& robot, double mass);  // kg, of all links
 // Whether what hangs on the last link is told as a payload: any joint moves the
 // origin of the tool's frame, in which a mass shows then, or there is one joint

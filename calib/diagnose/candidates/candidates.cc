@@ -105,10 +105,10 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
-// Bodies; springs and what is like them, which have no friction of another day
-// beside them to be less of.
+// Bodies, and laws that are no friction (springs and what is like them): less
+// friction is told by that of another day.
 bool MayBeLess(const Effect& effect) {
-  if (IsBody(effect)) return true;
+  if (IsCarriedBody(effect)) return true;
   return effect.nature == Effect::Nature::kLaw && effect.proportional &&
          !IsCoulombInFiles(effect);
 }

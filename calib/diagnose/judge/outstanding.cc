@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace armcal {
 
@@ -20,11 +21,13 @@ double LogBinomial(int n, int k) {
 // before, k more have as much as x above it, all of them, with the probability
 //   (1 + k x / S)^-m,
 // Lomax's law for k = 1, and any k of m + k with at most (m + k)! / (m! k!)
-// times that (Bonferroni). A peak is asked with those above it against those
-// below it, and is no likelier than these, so that several which stand out do
-// not hide each other; that k of them do is one question among others, of which
-// it has the share 2^-k (weighted Bonferroni, Genovese, Roeder and Wasserman
-// 2006).
+// times that (Bonferroni). A peak is asked against those below it, by itself
+// and with one, two, .. of those above it, any of which may be a peak as it is
+// or none: the largest of these chances is its own (closed testing, Marcus,
+// Peritz and Gabriel 1976). It is no likelier than those below it, so that
+// several which stand out do not hide each other; that k of them do is one
+// question among others, of which it has the share 2^-k (weighted Bonferroni,
+// Genovese, Roeder and Wasserman 2006).
 std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
   constexpr int kFewest = 3;  // above the threshold, that tell a mean
   std::vector<double> chances(sizes.size(), 1);
@@ -42,9 +45,12 @@ std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
       ++below;
     }
     if (below < kFewest || !(sum > 0)) continue;
-    const double log_chance =
-        LogBinomial(below + out, out) -
-        below * std::log1p(out * (sizes[i] - threshold) / sum);
+    double log_chance = -std::numeric_limits<double>::infinity();
+    for (int k = 1; k <= out; ++k) {
+      log_chance = std::max(
+          log_chance, LogBinomial(below + k, k) -
+                          below * std::log1p(k * (sizes[i] - threshold) / sum));
+    }
     chances[i] = std::min(1., std::exp(log_chance + out * std::log(2.)));
   }
   const std::vector<double> alone = chances;

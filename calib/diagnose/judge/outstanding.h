@@ -5,10 +5,10 @@
 
 namespace armcal {
 
-// How probable it is that as many of the peaks of what a model lacks as are as
-// large as this one are so, their smaller fellows being such peaks, whose sizes
-// have an exponential tail; of each of these sizes (any unit, above 0). 1 for
-// those that fewer than four are smaller than.
+// How probable it is that the largest of as many peaks of what a model lacks is
+// as large as this one, its smaller fellows being such peaks, whose sizes have
+// an exponential tail, and any number of its larger ones; of each of these
+// sizes (any unit, above 0). 1 for those that fewer than four are smaller than.
 std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes);
 
 // The most probable it is that one of these normal deviations, of given

@@ -127,8 +127,9 @@ double DeltaChi2Given::Of(size_t i, const VectorXd& conditioned) const {
     }
     if (any_positive && right == 0) return 0;
     for (int k = 0; k < x.size() && wrong < 0; ++k) {
-      const bool is_as_first = candidate.IsAsFirst(candidate.linear[k]);
-      if (used[k] && is_as_first && x[k] * x[0] < 0) wrong = k;
+      if (!used[k] || !candidate.IsAsFirst(candidate.linear[k])) continue;
+      const bool is_positive = candidate.IsPositive(candidate.linear[0]);
+      if (x[k] * x[0] < 0 || (is_positive && x[k] < 0)) wrong = k;
     }
     if (wrong < 0) return g.dot(x);
     used[wrong] = false;

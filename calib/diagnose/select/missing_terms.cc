@@ -112,7 +112,8 @@ class MissingTermFit {
       }
     }
     Weigh();
-    if (sign == Sign::kPositive) RemoveNegative();
+    if (sign == Sign::kFree) return;
+    RemoveNegative();
     RemoveUnasked();
   }
 
@@ -190,30 +191,30 @@ class MissingTermFit {
   }
 
   // Backward elimination: the term that is asked for the least goes first, and
-  // the others are asked again without it. Of two that a motion hardly tells
-  // apart (viscous and Coulomb friction of a joint at one speed) neither is
-  // asked for given the other, though one of them is.
+  // the others are fitted and asked again without it. Of two that a motion
+  // hardly tells apart (viscous and Coulomb friction of a joint at one speed)
+  // neither is asked for given the other, though one of them is.
   void RemoveUnasked() {
     while (true) {
       int least = -1;
       double lacks = 0;
       for (int f = 0; f < static_cast<int>(terms_.size()); ++f) {
-        if (IsNone(f)) continue;
+        if (unasked_.count(f) > 0) continue;
         const MissingTerm term = Term(f);
         const double by = LeastDeltaChi2(term) - term.delta_chi2;
         if (by >= lacks) lacks = by, least = f;
       }
       if (least < 0) return;
-      for (int j = 0; j < robot_.num_joints(); ++j) {
-        none_.insert(CandidateOf(least, j));
+      unasked_.insert(least);
+      // What was negative beside it need not be without it.
+      none_.clear();
+      for (const int f : unasked_) {
+        for (int j = 0; j < robot_.num_joints(); ++j) {
+          none_.insert(CandidateOf(f, j));
+        }
       }
+      RemoveNegative();
     }
-  }
-  bool IsNone(int f) const {
-    for (int j = 0; j < robot_.num_joints(); ++j) {
-      if (none_.count(CandidateOf(f, j)) == 0) return false;
-    }
-    return true;
   }
   bool IsAskedFor(const MissingTerm& term) const {
     return term.delta_chi2 > LeastDeltaChi2(term);
@@ -289,7 +290,8 @@ class MissingTermFit {
   GapData data_;
   MotionScale scale_;
   std::vector<GapCandidate> candidates_;
-  std::set<int> none_;  // of them, that are zero
+  std::set<int> unasked_;  // terms
+  std::set<int> none_;     // candidates that are zero
   std::vector<Autoregression> noise_;
   std::optional<GapScreen> screen_;
 };

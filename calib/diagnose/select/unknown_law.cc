@@ -204,12 +204,17 @@ std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
 
 bool IsLawRefuted(const std::vector<GapEvent>& events,
                   const std::vector<Returning>& torques, int joint) {
-  std::vector<Returning> of_joint;
+  std::vector<Returning> asked;
+  double all = 0, own = 0;
   for (size_t k = 0; k < events.size(); ++k) {
     if (!events[k].pulse || events[k].contact.joint != joint) continue;
-    if (torques[k].times > 0) of_joint.push_back(torques[k]);
+    const double square = torques[k].own * torques[k].own;
+    all += square;
+    if (torques[k].times == 0) continue;
+    own += square;
+    asked.push_back(torques[k]);
   }
-  return !of_joint.empty() && !Returns(of_joint);
+  return own > .5 * all && !Returns(asked);
 }
 
 std::vector<GapEvent> WithoutPulsesOfUnknownLaws(

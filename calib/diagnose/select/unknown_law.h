@@ -44,9 +44,10 @@ double UnknownLawOdds(const GapScreen& screen,
 std::vector<int> JointsWithUnknownLaw(const GapRegression& regression,
                                       const std::vector<GapCandidate>& effects,
                                       const std::vector<GapEvent>& events);
-// Whether the arm came back to where pulses were felt on a joint, and they were
-// not there again: then no law of its state made them. `torques`: of each event
-// (ReturningTorques).
+// Whether the arm came back to where most of a joint's pulses were felt (by
+// squares), and they were not there again: then no law of its state made them.
+// One of time alone is not asked of: what comes and goes in less than a second
+// is none. `torques`: of each event (ReturningTorques).
 bool IsLawRefuted(const std::vector<GapEvent>& events,
                   const std::vector<Returning>& torques, int joint);
 // The events without the pulses on those of these joints on which it is not.

@@ -10,8 +10,8 @@ namespace {
 std::string MillimetresOf(double x) { return Format("%.3g mm", 1e3 * x); }
 
 // Names with by how much each moves the targets, which tells what matters:
-// "sag (3.41 mm rms)"; those that are more probable than in a sentence on logs
-// that says "probably" (diagnose/named_effects.h), and others.
+// "sag (3.41 mm rms)"; from 80 % on they are told without a "probably", as in a
+// sentence on logs (IsConfident in diagnose/names.h).
 struct Claims {
   void Add(const PoseFinding& finding) {
     constexpr double kConfident = .8;

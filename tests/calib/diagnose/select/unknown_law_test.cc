@@ -123,12 +123,16 @@ TEST(IsLawRefuted, WhereTheArmCameBackAndFeltNothing) {
     event.contact.joint = 1;
   }
   const Returning never = {5, 0, 0}, again = {5, 4.5, 2}, nothing = {5, .2, 1};
-  EXPECT_TRUE(IsLawRefuted(events, {nothing, never, never}, 1));
-  EXPECT_FALSE(IsLawRefuted(events, {nothing, never, never}, 0));
+  EXPECT_TRUE(IsLawRefuted(events, {nothing, nothing, never}, 1));
+  EXPECT_FALSE(IsLawRefuted(events, {nothing, nothing, never}, 0));
+  EXPECT_FALSE(IsLawRefuted(events, {nothing, never, never}, 1))
+      << "one of three";
   EXPECT_FALSE(IsLawRefuted(events, {again, again, never}, 1));
   EXPECT_FALSE(IsLawRefuted(events, {never, never, never}, 1));
   events[0].pulse = false;
   EXPECT_FALSE(IsLawRefuted(events, {nothing, never, again}, 1));
+  EXPECT_FALSE(IsLawRefuted(events, {nothing, nothing, never}, 1))
+      << "of the pulses half";
 }
 
 }  // namespace armcal::unknown_law_test
