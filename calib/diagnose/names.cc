@@ -19,13 +19,13 @@ bool IsSignKnown(const FoundEffect& found) {
 // linear parameters (a sine and a cosine) have no such way, but those of a body
 // do; one that cannot be negative has only one.
 bool HasDirection(const FoundEffect& found) {
+  if (IsCarriedBody(*found.effect)) return IsSignKnown(found);
   using Parameter = EffectParameter;
   const std::vector<Parameter>& all = found.effect->parameters;
   const auto is_linear = [](const Parameter& parameter) {
     return parameter.search == Parameter::Search::kLinear;
   };
   const auto first = std::find_if(all.begin(), all.end(), is_linear);
-  if (IsCarriedBody(*found.effect)) return IsSignKnown(found);
   return std::count_if(all.begin(), all.end(), is_linear) == 1 &&
          first->sign == Parameter::Sign::kFree && !found.estimates.empty() &&
          found.estimates[0].value != 0;
@@ -58,7 +58,7 @@ std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
 }
 
 bool IsTakenOff(const FoundEffect& found) {
-  return IsCarriedBody(*found.effect) && HasDirection(found) &&
+  return IsCarriedBody(*found.effect) && IsSignKnown(found) &&
          found.estimates[0].value < 0;
 }
 

@@ -40,11 +40,10 @@ constexpr double kMostInflation = 1e8;
 // anything changes.
 ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmFit& fit, const ArmTrust& trust,
-                                    const ArmValues& at,
+                                    const PoseInformation& poses,
                                     const LinkInformation& torques,
                                     double torque_constants_stddev) {
   const std::vector<int> free = unknowns.FreeIndices();
-  const PoseInformation poses = fit.InformByPoses(at);
   MatrixXd data(torques.R.rows() + poses.rows.rows(), unknowns.size());
   data << torques.R, poses.rows;
   const auto trusting = [&](const ArmTrust& t) {

@@ -22,12 +22,13 @@ struct ArmCovariance {
   std::vector<std::string> unseen;
 };
 
-// The sandwich of information and scores: torque rows overlap and have
-// autocorrelated errors. Each joint's torque scale, of that relative standard
-// deviation, adds what it makes of the estimate.
+// The sandwich of information and scores of poses and torques, both at the
+// estimate: torque rows overlap and have autocorrelated errors. Each joint's
+// torque scale, of that relative standard deviation, adds what it makes of the
+// estimate.
 ArmCovariance EstimateArmCovariance(const ArmUnknowns& unknowns,
                                     const ArmFit& fit, const ArmTrust& trust,
-                                    const ArmValues& at,
+                                    const PoseInformation& poses,
                                     const LinkInformation& torques,
                                     double torque_constants_stddev);
 

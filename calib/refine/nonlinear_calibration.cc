@@ -250,12 +250,13 @@ NonlinearCalibration NonlinearCalibrator::Run(const PoseMeasurements* poses,
   result.solved = Solve(prepared, fit, &result);
   if (!result.solved) return result;
   LinkPass pass(unknowns_, linear_, options_.progress, prepared);
-  Report(EstimateArmCovariance(
-             unknowns_, fit, options_.trust, values_,
-             pass.Inform(values_, noise_, fit.InformByPoses(values_).rows,
-                         fit.PriorInformation(options_.trust)),
-             linear_.torque_constants_stddev),
-         &result);
+  const PoseInformation told_by_poses = fit.InformByPoses(values_);
+  Report(
+      EstimateArmCovariance(unknowns_, fit, options_.trust, told_by_poses,
+                            pass.Inform(values_, noise_, told_by_poses.rows,
+                                        fit.PriorInformation(options_.trust)),
+                            linear_.torque_constants_stddev),
+      &result);
   result.robot = unknowns_.Apply(values_);
   result.refined_geometry =
       unknowns_.refines_geometry() || poses != nullptr ||

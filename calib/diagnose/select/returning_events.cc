@@ -69,9 +69,8 @@ double Tolerance(const MatrixXd& states, int sample) {
 // The samples nearest to a state, one for each time that the arm comes back to
 // it: of each uninterrupted stretch of near ones that does not touch the
 // event's window, in which the arm has not yet left the state.
-std::vector<int> ReturnsTo(const GapRows& rows, int centre,
-                           const GapEvent& event) {
-  const MatrixXd states = StatesOf(rows);
+std::vector<int> ReturnsTo(const GapRows& rows, const MatrixXd& states,
+                           int centre, const GapEvent& event) {
   const double tolerance = Tolerance(states, centre);
   std::vector<int> returns;
   for (int s = 0; s < static_cast<int>(rows.segments().size()); ++s) {
@@ -109,10 +108,9 @@ double MeanAbout(const GapRows& rows, const VectorXd& left, int sample,
   return left.segment(begin, end - begin).mean();
 }
 
-}  // namespace
-
-Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
-                          const GapEvent& event) {
+// `states`: StatesOf(rows).
+Returning TorqueOfReturns(const GapRows& rows, const MatrixXd& states,
+                          const MatrixXd& left, const GapEvent& event) {
   const Contact& contact = ToldContact(event);
   const int centre = SampleAt(rows, contact.log, contact.time);
   if (centre < 0) return {};
@@ -122,7 +120,7 @@ Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
   const double own = MeanAbout(rows, torque, centre, reach);
   double sum = 0;
   int count = 0;
-  for (const int sample : ReturnsTo(rows, centre, event)) {
+  for (const int sample : ReturnsTo(rows, states, centre, event)) {
     const double there = MeanAbout(rows, torque, sample, reach);
     if (!std::isfinite(there)) continue;
     sum += there;
@@ -130,6 +128,13 @@ Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
   }
   if (!std::isfinite(own)) return {};
   return {own, count > 0 ? sum / count : 0, count};
+}
+
+}  // namespace
+
+Returning ReturningTorque(const GapRows& rows, const MatrixXd& left,
+                          const GapEvent& event) {
+  return TorqueOfReturns(rows, StatesOf(rows), left, event);
 }
 
 bool Returns(const std::vector<Returning>& torques) {
@@ -148,13 +153,14 @@ std::vector<Returning> ReturningTorques(
   const JointRows torque = regression.TorqueOf(effects);
   const MatrixXd left =
       regression.data()->ResidualWith(regression.BaselineGiven(torque), torque);
+  const MatrixXd states = StatesOf(regression.rows());
   std::vector<Returning> torques;
   for (const GapEvent& event : events) {
     if (event.at_rest) {
       torques.emplace_back();
       continue;
     }
-    Returning one = ReturningTorque(regression.rows(), left, event);
+    Returning one = TorqueOfReturns(regression.rows(), states, left, event);
     const int joint = ToldContact(event).joint;
     one.own /= regression.noise().joints[joint].stddev();
     one.returned /= regression.noise().joints[joint].stddev();

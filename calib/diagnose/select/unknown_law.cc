@@ -224,6 +224,7 @@ std::vector<GapEvent> WithoutPulsesOfUnknownLaws(
   if (std::none_of(events.begin(), events.end(), is_pulse)) return events;
   const std::vector<int> joints =
       JointsWithUnknownLaw(regression, effects, events);
+  if (joints.empty()) return events;
   const std::vector<Returning> torques =
       ReturningTorques(regression, effects, events);
   std::vector<GapEvent> kept;
