@@ -6,19 +6,23 @@
 
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/description.h"
-#include "calib/diagnose/judge/outstanding.h"
 #include "calib/diagnose/judge/probability.h"
-#include "calib/diagnose/select/contact_events.h"
+#include "calib/diagnose/select/pulse_events.h"
+#include "calib/numerics/maxima.h"
 
 namespace armcal {
 namespace {
 
 // How probable it is that what the model lacks as a rule is as large on some
 // joint in some stretch of the log, as long as this one, as what was felt, each
-// joint's torque known to its noise. A chi squared of many samples does not ask
-// this: what lasts through a stretch is not averaged there.
-double ChanceByDiscrepancy(const GapFit& fit, const Contact& contact) {
+// joint's torque known as well as the log's other pulses say, if it was felt as
+// one. A chi squared of many samples does not ask this: what lasts through a
+// stretch is not averaged there.
+double ChanceByDiscrepancy(const GapFit& fit, const GapEvent& event,
+                           const Eigen::VectorXd& scale) {
+  const Contact& contact = ToldContact(event);
   Eigen::VectorXd stddev = contact.stddev;
+  if (event.pulse || event.as_pulse) stddev.array() *= scale.array();
   for (int j = 0; j < stddev.size(); ++j) {
     stddev[j] = std::hypot(stddev[j], fit.regression().DiscrepancyOn(j));
   }
@@ -38,60 +42,15 @@ double ChanceByDiscrepancy(const GapFit& fit, const Contact& contact) {
 // chance of a peak so far above the log's others, and no more than what the
 // model lacks as a rule leaves to it.
 double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
-                          const EffectEvidence& evidence,
-                          double chance_among_peaks) {
+                          const EffectEvidence& evidence, double chance_in_log,
+                          const Eigen::VectorXd& scale) {
   if (!event.beyond_friction) return ProbabilityOf(evidence);
   const double odds = Limits().odds_of_no_contact;
   if (event.chance_of_logs) return ProbabilityBeyondChance(event.chance, odds);
-  return std::min(std::max(ProbabilityBeyondOneReference(evidence),
-                           ProbabilityBeyondChance(chance_among_peaks, odds)),
-                  ProbabilityBeyondChance(
-                      ChanceByDiscrepancy(fit, ToldContact(event)), odds));
-}
-
-// Of what is left of moving joints' torques where there is no event, over the
-// noise's: the largest in every block of time.
-std::vector<double> PeaksBesideEvents(const GapFit& fit) {
-  const GapRows& rows = fit.rows();
-  const RefinedEffects& refined = fit.refined();
-  const Eigen::MatrixXd left = fit.data()->ResidualWith(
-      refined.baseline, fit.regression().TorqueOf(refined.effects));
-  Eigen::VectorXd series = Eigen::VectorXd::Zero(left.rows());
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    for (const GapRows::Place& place : rows.PlacesOfRows(j)) {
-      const int log = rows.segments()[place.segment].log;
-      const bool in_event = std::any_of(
-          fit.events().begin(), fit.events().end(), [&](const auto& event) {
-            return event.contact.log == log &&
-                   event.contact.window.Contains(place.time);
-          });
-      if (in_event) continue;
-      series[place.sample] =
-          std::max(series[place.sample], std::abs(left(place.sample, j)) /
-                                             fit.noise().joints[j].stddev());
-    }
-  }
-  std::vector<double> peaks = BlockMaxima(rows, BlockTime(rows), series);
-  peaks.erase(std::remove(peaks.begin(), peaks.end(), 0), peaks.end());
-  return peaks;
-}
-
-// The square of each event's torque on the joint that felt it most, over the
-// noise's; then of what else peaks in the logs, which an event has to stand out
-// from. Squares of normal errors have an exponential tail, whatever their
-// variance, which the peaks tell.
-std::vector<double> SquaresOf(const GapFit& fit) {
-  std::vector<double> sizes;
-  for (const GapEvent& event : fit.events()) {
-    const Contact& contact = ToldContact(event);
-    const int j = contact.joint;
-    sizes.push_back(std::abs(contact.torque[j]) /
-                    fit.noise().joints[j].stddev());
-  }
-  const std::vector<double> others = PeaksBesideEvents(fit);
-  sizes.insert(sizes.end(), others.begin(), others.end());
-  for (double& size : sizes) size *= size;
-  return sizes;
+  return std::min(
+      std::max(ProbabilityBeyondOneReference(evidence),
+               ProbabilityBeyondChance(chance_in_log, odds)),
+      ProbabilityBeyondChance(ChanceByDiscrepancy(fit, event, scale), odds));
 }
 
 }  // namespace
@@ -100,11 +59,12 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
                         const EffectEvidence& evidence) {
   FoundEffect found;
   found.evidence = evidence;
-  const std::vector<double> chances = ChancesAmongPeaks(SquaresOf(fit));
+  const OwnPulses own =
+      OwnPulsesOf(fit.regression(), fit.refined().effects, fit.events());
   std::vector<double> probabilities;
   for (size_t k = 0; k < fit.events().size(); ++k) {
-    probabilities.push_back(
-        ProbabilityOfEvent(fit, fit.events()[k], found.evidence, chances[k]));
+    probabilities.push_back(ProbabilityOfEvent(
+        fit, fit.events()[k], found.evidence, own.chances[k], own.scale));
     found.probability = std::max(found.probability, probabilities[k]);
   }
   const double least = std::min(found.probability, Limits().likely);

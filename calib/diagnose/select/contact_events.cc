@@ -4,7 +4,7 @@
 
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/maxima_tail.h"
+#include "calib/numerics/maxima.h"
 
 namespace armcal {
 namespace {
@@ -21,7 +21,8 @@ UsualMaximum UsualExcess(const GapRegression& regression,
   const double block = BlockTime(before);
   const std::vector<double> own = BlockMaxima(rows, block, excess.Largest());
   UsualMaximum usual{static_cast<double>(own.size()), {}};
-  if (of_itself) usual.tails.push_back(UsualTailOf(own));
+  if (of_itself)
+    usual.tails.push_back(UsualTailOf(own, Limits().fewest_blocks));
   if (!reference) return usual;
   const VectorXd& x = regression.refit();
   const FrictionExcess known = ExcessOverFriction(

@@ -7,7 +7,6 @@
 
 #include "calib/diagnose/candidates/refinement.h"
 #include "calib/diagnose/select/events.h"
-#include "calib/diagnose/select/maxima_tail.h"
 #include "calib/diagnose/select/pool.h"
 #include "calib/diagnose/select/regression.h"
 #include "calib/diagnose/select/rivals.h"

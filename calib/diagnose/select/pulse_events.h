@@ -4,6 +4,7 @@
 
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/select/events.h"
+#include "calib/diagnose/select/pulse_search.h"
 #include "calib/diagnose/select/regression.h"
 
 namespace armcal {
@@ -31,5 +32,12 @@ std::vector<GapEvent> WithoutExplainedPulses(
 void ConfirmTouches(const GapRegression& regression,
                     const std::vector<GapCandidate>& effects,
                     std::vector<GapEvent>* events);
+
+// What a log says of its pulses beside events (PulseSearch), given effects and
+// a model that was fitted without the events' windows: chances of 1 and scales
+// of 1 where there is no reference.
+OwnPulses OwnPulsesOf(const GapRegression& regression,
+                      const std::vector<GapCandidate>& effects,
+                      const std::vector<GapEvent>& events);
 
 }  // namespace armcal

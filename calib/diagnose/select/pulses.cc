@@ -41,7 +41,8 @@ std::vector<double> PulseScan::Widths() {
 PulseScan::PulseScan(const GapRows& rows, const Model& model,
                      const MatrixXd& residual, const MatrixXd& extra_stddev)
     : rows_(rows), joints_(rows.num_joints()) {
-  widths_ = deviations_ = MatrixXd::Zero(rows.num_thin(), rows.num_joints());
+  widths_ = torques_ = deviations_ =
+      MatrixXd::Zero(rows.num_thin(), rows.num_joints());
   for (int j = 0; j < rows.num_joints(); ++j) {
     Joint& joint = joints_[j];
     const MatrixXd half =
@@ -94,9 +95,12 @@ void PulseScan::Scan(int joint, double width) {
     const int s = static_cast<int>(i);
     const Course course = CourseOf(joint, rows_.step(s), width);
     for (int k = rows_.thin_begin(s); k < rows_.thin_begin(s + 1); ++k) {
-      const double deviations = Fit(joint, s, k, course).deviations;
-      if (std::abs(deviations) <= std::abs(deviations_(k, joint))) continue;
-      deviations_(k, joint) = deviations;
+      const Pulse pulse = Fit(joint, s, k, course);
+      if (std::abs(pulse.deviations) <= std::abs(deviations_(k, joint))) {
+        continue;
+      }
+      deviations_(k, joint) = pulse.deviations;
+      torques_(k, joint) = pulse.torque;
       widths_(k, joint) = width;
     }
   }

@@ -45,9 +45,10 @@ class PulseScan {
             const Eigen::MatrixXd& extra_stddev);
 
   // Of every thinned sample and joint (thinned samples x n) the width of the
-  // pulse that stands out most, and by how many standard deviations of either
-  // sign; 0 where less than half of any is seen.
+  // pulse that stands out most, its torque, and by how many standard deviations
+  // of either sign it does; 0 where less than half of any is seen.
   const Eigen::MatrixXd& widths() const { return widths_; }
+  const Eigen::MatrixXd& torques() const { return torques_; }
   const Eigen::MatrixXd& deviations() const { return deviations_; }
   // The largest of all joints, per thinned sample, without its sign.
   Eigen::VectorXd Largest() const {
@@ -79,7 +80,7 @@ class PulseScan {
 
   const GapRows& rows_;
   std::vector<Joint> joints_;
-  Eigen::MatrixXd widths_, deviations_;
+  Eigen::MatrixXd widths_, torques_, deviations_;
 };
 
 }  // namespace armcal

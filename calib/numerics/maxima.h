@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 namespace armcal {
@@ -24,7 +25,7 @@ struct MaximaTail {
 MaximaTail TailOf(std::vector<double> maxima);
 // The same of maxima of which up to a quarter may be something else: the scale
 // is told by their upper quartile, as well as a quarter of them tells.
-MaximaTail UsualTailOf(std::vector<double> maxima);
+MaximaTail UsualTailOf(std::vector<double> maxima, double fewest);
 
 // What has to stand out from each of several tails.
 struct UsualMaximum {
@@ -34,5 +35,19 @@ struct UsualMaximum {
   double Chance(double value) const;
   double Quantile(double probability) const;
 };
+
+// How probable it is that the largest of as many peaks of what a model lacks is
+// as large as this one, its smaller fellows being such peaks, whose sizes have
+// an exponential tail, and any number of its larger ones; of each of these
+// sizes (any unit, above 0). 1 for those that fewer than four are smaller than.
+std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes);
+
+// The most probable it is that one of these normal deviations, of given
+// standard deviations, is as many of these as the largest of `values` is, in so
+// many draws of all of them (Bonferroni's bound, at most 1):
+//   p = draws n erfc(z / sqrt(2)),  z = max |value| / stddev.
+// Deviations of 0 tell nothing.
+double ChanceOfLargest(const Eigen::VectorXd& values,
+                       const Eigen::VectorXd& stddev, double draws);
 
 }  // namespace armcal

@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/maxima_tail.h"
+#include "calib/numerics/maxima.h"
 
 #include <gtest/gtest.h>
 
@@ -36,24 +36,25 @@ TEST_F(MaximaTails, ArePassedAsOftenAsTheySay) {
     EXPECT_NEAR(
         ShareAbove([&] { return TailOf(Draw(29)).Quantile(kFurther, p); }), p,
         p / 2);
-    EXPECT_LT(
-        ShareAbove([&] { return UsualTailOf(Draw(29)).Quantile(kFurther, p); }),
-        1.5 * p);
+    EXPECT_LT(ShareAbove([&] {
+                return UsualTailOf(Draw(29), 8).Quantile(kFurther, p);
+              }),
+              1.5 * p);
   }
 }
 
 // A fifth of them is something else.
 TEST_F(MaximaTails, OfTheUsualDoNotHeedAFew) {
   std::vector<double> maxima = Draw(100);
-  const double limit = UsualTailOf(maxima).Quantile(100, .01);
+  const double limit = UsualTailOf(maxima, 8).Quantile(100, .01);
   EXPECT_LT(limit, 40);
   std::fill(maxima.begin(), maxima.begin() + 20, 1000.);
-  EXPECT_LT(UsualTailOf(maxima).Quantile(100, .01), 3 * limit);
+  EXPECT_LT(UsualTailOf(maxima, 8).Quantile(100, .01), 3 * limit);
   EXPECT_GT(TailOf(maxima).Quantile(100, .01), 1000);
 }
 
 TEST_F(MaximaTails, HaveTheChanceOfTheirQuantile) {
-  const MaximaTail tail = TailOf(Draw(29)), usual = UsualTailOf(Draw(29));
+  const MaximaTail tail = TailOf(Draw(29)), usual = UsualTailOf(Draw(29), 8);
   for (const double p : {.001, .01, .3}) {
     EXPECT_NEAR(tail.Chance(14, tail.Quantile(14, p)), p, 1e-9);
     EXPECT_NEAR(usual.Chance(14, usual.Quantile(14, p)), p, 1e-9);
@@ -63,7 +64,7 @@ TEST_F(MaximaTails, HaveTheChanceOfTheirQuantile) {
 
 TEST_F(MaximaTails, OfTooFewSayNothing) {
   EXPECT_EQ(TailOf({3}).Chance(14, 1e9), 1);
-  EXPECT_EQ(UsualTailOf({1, 2, 3, 4, 5, 6, 7}).Chance(14, 1e9), 1);
+  EXPECT_EQ(UsualTailOf({1, 2, 3, 4, 5, 6, 7}, 8).Chance(14, 1e9), 1);
   EXPECT_TRUE(std::isinf(TailOf({3}).Quantile(14, .01)));
 }
 

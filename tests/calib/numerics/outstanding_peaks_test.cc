@@ -1,11 +1,11 @@
-#include "calib/diagnose/judge/outstanding.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "calib/numerics/maxima.h"
 
 namespace armcal::outstanding_test {
 
