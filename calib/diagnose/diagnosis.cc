@@ -92,6 +92,13 @@ class Diagnoser {
   GapDiagnosis result_;
 };
 
+// The time in which what passes a low pass turns by a radian, 1 / (2 pi f): a
+// shorter one is nothing to it, and one by which a signal is late is to first
+// order a factor of its derivative up to there. s
+double ResolvedTime(double bandwidth_hz) {
+  return 1 / (2 * M_PI * bandwidth_hz);
+}
+
 // The model and its freedom; a reference moves it to what that shows.
 // Afterwards both kinds of segments have their torque as if it came without
 // delay.
@@ -102,10 +109,11 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
-  // How late a log's torque is, a reference tells.
-  if (!before->empty()) trust.timing_s = Limits().timing_with_reference;
+  // How late a log's torque is, a reference tells, by as much as a derivative
+  // in time can say at once.
+  if (!before->empty()) trust.timing_s = ResolvedTime(bandwidth_hz_);
   if (HaveNoiseOfPositions(*segments)) {
-    trust.reversal_s = Limits().reversal_of_reconstructed_torques;
+    trust.reversal_s = ResolvedTime(MotionBandwidth(bandwidth_hz_));
   }
   // A reference is fitted on another day than a calibration was.
   trust.of_another_day = !before->empty();

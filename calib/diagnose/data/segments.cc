@@ -188,7 +188,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
       AddErrors(*reconstructed, bandwidth_hz, &segment);
     }
     for (const TimeRange& burst :
-         TimesOf(FindTorqueBursts(segment, bandwidth_hz))) {
+         TimesOf(FindTorqueBursts(segment, bandwidth_hz), bandwidth_hz)) {
       segment.lost.push_back(burst);
     }
     Motion& motion = segment.motion;
