@@ -92,13 +92,6 @@ class Diagnoser {
   GapDiagnosis result_;
 };
 
-// The time in which what passes a low pass turns by a radian, 1 / (2 pi f): a
-// shorter one is nothing to it, and one by which a signal is late is to first
-// order a factor of its derivative up to there. s
-double ResolvedTime(double bandwidth_hz) {
-  return 1 / (2 * M_PI * bandwidth_hz);
-}
-
 // The model and its freedom; a reference moves it to what that shows.
 // Afterwards both kinds of segments have their torque as if it came without
 // delay.

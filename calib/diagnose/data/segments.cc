@@ -214,6 +214,10 @@ void SetUsualTemperature(VectorXd* usual, std::vector<GapSegment>* segments) {
   }
 }
 
+double ResolvedTime(double bandwidth_hz) {
+  return 1 / (2 * M_PI * bandwidth_hz);
+}
+
 double MotionBandwidth(double bandwidth_hz) {
   return kMotionBandwidth * bandwidth_hz;
 }
