@@ -35,14 +35,15 @@ FACTORS = {"half": .5, "twice": 2}
 # Numbers that were chosen on data, or fitted to it, and stand beside the code that they
 # decide in: file, how many, what they are, the data.
 BESIDE = [
-    ("calib/diagnose/judge/evidence.cc", 19, "weights of a claim's probability: 6 of an effect against a "
-     "file, 5 since a reference, 5 of what comes and goes, 3 of what stands beyond a single "
+    ("calib/diagnose/judge/evidence.cc", 19,
+     "weights of a claim's probability: 6 of an effect against a file, 5 since a reference, 5 of what comes and goes, 3 of what stands beyond a single "
      "reference", "the cases and logs that stand beside each set"),
-    ("calib/diagnose/data/day_shares.h", 2, "friction from day to day, shares of viscous and of Coulomb "
-     "friction", "a UR10e's eight logs of a month"),
+    ("calib/diagnose/data/day_shares.h", 2,
+     "friction from day to day, shares of viscous and of Coulomb friction", "a UR10e's eight logs of a month"),
     ("calib/diagnose/freedom.cc", 2, "by which factors a file's trust may be too small",
      "from the 5 % of a file taken at its word to the 50 % that calibrations give one"),
-    ("calib/diagnose/select/missing_terms.cc", 1, "the prior of missing terms, by the size that matters",
+    ("calib/diagnose/select/missing_terms.cc", 1,
+     "the prior of missing terms, by the size that matters",
      "the sizes of the catalogue"),
     ("calib/diagnose/select/rivals.cc", 2, "how near in score rivals are fitted as well",
      "nothing that was noted"),
