@@ -102,10 +102,11 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
-  // How late a log's torque is, a reference tells.
-  if (!before->empty()) trust.timing_s = Limits().timing_with_reference;
+  // How late a log's torque is, a reference tells, by as much as a derivative
+  // in time can say at once.
+  if (!before->empty()) trust.timing_s = ResolvedTime(bandwidth_hz_);
   if (HaveNoiseOfPositions(*segments)) {
-    trust.reversal_s = Limits().reversal_of_reconstructed_torques;
+    trust.reversal_s = ResolvedTime(MotionBandwidth(bandwidth_hz_));
   }
   // A reference is fitted on another day than a calibration was.
   trust.of_another_day = !before->empty();

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/evidence_noise.h"
 #include "calib/diagnose/select/form_error.h"
@@ -118,10 +119,9 @@ std::vector<const Effect*> EffectsOf(const std::vector<TermChange>& changes) {
 }
 
 // Joints of which a term with its change has less than half in common with
-// what it was, and the change is told to three standard deviations.
+// what it was, and the change is more than chance.
 std::set<int> JointsOfOtherDrives(const GapFit& fit,
                                   const std::vector<TermChange>& changes) {
-  constexpr double kTold = 3;
   const GapScreen::Fit with = SolveWith(fit, changes);
   Eigen::Index at = static_cast<Eigen::Index>(
       ColumnsOf(fit.candidates(), fit.selection().chosen).size());
@@ -137,7 +137,7 @@ std::set<int> JointsOfOtherDrives(const GapFit& fit,
       ++at;
       const auto [less, more] = std::minmax(before, before + changed);
       if (less < (1 - Limits().explains) * more &&
-          std::abs(changed) > kTold * deviation) {
+          std::abs(changed) > Limits().by_chance * deviation) {
         joints.insert(candidate.joint);
       }
     }

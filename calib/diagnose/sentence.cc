@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/named_effects.h"
 #include "calib/diagnose/names.h"
 #include "model/text/format.h"
@@ -11,8 +12,9 @@
 namespace armcal {
 namespace {
 
-// Held-out mean square over the noise's from which on more than noise is left.
-constexpr double kNoisy = 2;
+// Held-out mean square over the noise's from which on it is more than noise
+// that is louder than was told.
+double LoudestNoise() { return 1 + Limits().extra_variance_of_others; }
 
 bool IsMovedZero(const MovedParameter& moved) {
   return moved.term == JointTerm::kOffset;
@@ -118,7 +120,7 @@ std::string ChangedWithoutName(const GapDiagnosis& diagnosis) {
   const bool besides = !ChangedTogether(diagnosis).empty();
   const std::string since = " since " + SinceWhat(diagnosis);
   const std::string where = Where(diagnosis.unexplained);
-  if (diagnosis.torque.after < kNoisy) {
+  if (diagnosis.torque.after < LoudestNoise()) {
     return (besides ? "No other change" : "No change") + since +
            " can be named; what is left of held-out torque is " +
            OfNoise(diagnosis.torque.after) + where + ".";
@@ -163,7 +165,7 @@ std::string AbsorbedSince(const GapDiagnosis& diagnosis) {
 // Effects that remove most of the gap may leave much more than noise:
 // "; 16 times the noise's mean square is left".
 std::string StillLeft(const GapDiagnosis& diagnosis) {
-  if (!(diagnosis.torque.after >= kNoisy)) return "";
+  if (!(diagnosis.torque.after >= LoudestNoise())) return "";
   return "; " + OfNoise(diagnosis.torque.after) + " is left";
 }
 
@@ -171,7 +173,7 @@ std::string StillLeft(const GapDiagnosis& diagnosis) {
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
                              diagnosis.verdict == GapVerdict::kAbsorbed;
-  if (nothing_named && diagnosis.torque.refit > kNoisy) {
+  if (nothing_named && diagnosis.torque.refit > LoudestNoise()) {
     return Format(
         "No known effect is seen, yet held-out torque is off by %.3g times the "
         "noise's mean square: the noise may be louder than was told, or "

@@ -4,20 +4,22 @@
   build/tests/write_blind_cases --set=calibration --seed=.. --cases=24 \\
     --logs=CASES/plain/logs --labels=CASES/plain/labels --quiet=CASES/plain/quiet
   (the same with --misfit into CASES/misfit)
-  python3 tests/blind/sensitivity.py --cases=CASES [--only=NAME,..] [--check]
+  python3 tests/blind/sensitivity.py --cases=CASES [--only=NAME,..] [--check|--rewrite]
 
 Diagnoses the cases of every folder of CASES with each threshold
 (calib/diagnose/data/thresholds.h) at half and at twice its value, a quantile with
 its remainder to 1 so, and writes docs/thresholds.md: how many answers change (the
 verdict, or what is claimed above 50 %), and how many more or fewer are right. It goes
 on where it stopped (CASES/sensitivity.json). --check: writes nothing, and fails where
-the page does not list the thresholds as they are.
+the page does not list the thresholds as they are. --rewrite: the page as the thresholds
+are now, with the figures that it has of those whose value is still the same.
 """
 
 import argparse
 import datetime
 import json
 import os
+import re
 import stat
 import subprocess
 import sys
@@ -30,6 +32,22 @@ PAGE = ROOT / "docs" / "thresholds.md"
 NAMED = .5
 SOURCE = {"tuned": "chosen on: ", "law": "", "definition": "defines: "}
 FACTORS = {"half": .5, "twice": 2}
+# Numbers that were chosen on data, or fitted to it, and stand beside the code that they
+# decide in: file, how many, what they are, the data.
+BESIDE = [
+    ("calib/diagnose/judge/evidence.cc", 19,
+     "weights of a claim's probability: 6 of an effect against a file, 5 since a reference, 5 of what comes and goes, 3 of what stands beyond a single "
+     "reference", "the cases and logs that stand beside each set"),
+    ("calib/diagnose/data/day_shares.h", 2,
+     "friction from day to day, shares of viscous and of Coulomb friction", "a UR10e's eight logs of a month"),
+    ("calib/diagnose/freedom.cc", 2, "by which factors a file's trust may be too small",
+     "from the 5 % of a file taken at its word to the 50 % that calibrations give one"),
+    ("calib/diagnose/select/missing_terms.cc", 1,
+     "the prior of missing terms, by the size that matters",
+     "the sizes of the catalogue"),
+    ("calib/diagnose/select/rivals.cc", 2, "how near in score rivals are fitted as well",
+     "nothing that was noted"),
+]
 
 
 def changed(threshold, factor):
@@ -108,25 +126,22 @@ def number(x):
 
 def page(thresholds, result):
     kinds = Counter(t["kind"] for t in thresholds)
+    beside = sum(count for _, count, _, _ in BESIDE)
     count, of = result.get("cases", 0), result.get("of", "")
     lines = [
         "# Thresholds of a diagnosis", "",
         f"Numbers that decide what `armcal diagnose` says of logs: {kinds['tuned']} that were "
         f"chosen on data, {kinds['law']} that follow from a law, and {kinds['definition']} "
         "that define a word of the answer or what is looked for. Written by `tests/blind/sensitivity.py` from "
-        "`calib/diagnose/data/thresholds.h`. Not here are the weights of a claim's "
-        "probability (`calib/diagnose/judge/evidence.cc`), the ranges of "
+        f"`calib/diagnose/data/thresholds.h`. {beside} more that were chosen on data, or fitted to "
+        "it, stand beside the code that they decide in ([below](#beside-the-code)): "
+        f"{kinds['tuned'] + beside} tuned numbers in all. Not here are the ranges of "
         "[effects' parameters](effects/README.md), what a standstill is "
         "(`model/signals/standstill.h`), the constants of changes over many logs "
-        "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), the sizes of "
-        "grids and caps on rounds, and these, beside the code that they decide in: by how many "
-        "deviations friction has to be negative (`calib/diagnose/judge/dissipation.cc`), the chances of three "
-        "deviations (`calib/diagnose/data/days.h`, `calib/diagnose/judge/joint_agreement.cc`), the level of 5 % of tests and "
-        "intervals (`calib/diagnose/judge/shown.cc`, `calib/diagnose/judge/effect_gain.h`), friction from day to day "
-        "(`calib/diagnose/data/day_shares.h`), the factors of trust (`calib/diagnose/freedom.cc`), the prior of missing terms "
-        "(`calib/diagnose/select/missing_terms.cc`), how many rivals are compared (`calib/diagnose/select/rivals.cc`) and when "
-        "a sentence says that noise is loud (`calib/diagnose/sentence.cc`). *Nothing that was noted*: it is not known any more on "
-        "what data that number was chosen.", "",
+        "(`calib/diagnose/changes`) and of measured poses (`calib/poses`), the bounds within "
+        "which odds are weighed (`calib/diagnose/judge/evidence.cc`), and the sizes of grids "
+        "and caps on rounds. *Nothing that was noted*: it is not known any more on what data "
+        "that number was chosen.", "",
         *(["The last two figures are not measured yet.", ""] if not count else []),
         f"*Half* and *twice*: how many of {count or 'the'} calibration cases of the "
         f"[blind bench](../tests/blind/README.md){of} get "
@@ -149,14 +164,43 @@ def page(thresholds, result):
         source = SOURCE[t["kind"]] + t["source"]
         lines.append(f"| `{t['name']}` | {number(t['value'])} | {t['unit']} | "
                      f"{t['meaning']} | {cells[0]} | {cells[1]} | {source} |")
+    lines += ["", "## Beside the code", "",
+              "| file | numbers | what they are | chosen on |",
+              "|---|---|---|---|"]
+    lines += [f"| `{file}` | {count} | {what} | {data} |" for file, count, what, data in BESIDE]
     return "\n".join(lines) + "\n"
+
+
+def listed():
+    """The page's cells, a row for each threshold."""
+    rows, _, _ = PAGE.read_text().partition("## Beside the code")
+    return [[cell.strip() for cell in line[1:-1].split("|")]
+            for line in rows.splitlines() if line.startswith("| `")]
+
+
+def measured(thresholds):
+    """The page's figures, of thresholds whose value is still that of the page."""
+    text = PAGE.read_text()
+    cases = re.search(r"how many of (\d+) calibration cases of the \S+ \S+( \(.*?\))? get",
+                      text)
+    result = {"rows": {}, "cases": int(cases[1]), "of": cases[2] or "",
+              "date": re.search(r"Measured on ([-\d]+)", text)[1]}
+    values = {t["name"]: number(t["value"]) for t in thresholds}
+    for cells in listed():
+        name = cells[0].strip("`")
+        if values.get(name) != cells[1]:
+            continue
+        figures = {word: re.fullmatch(r"(\d+)(?: \(([-+]\d+)\))?", cell)
+                   for word, cell in zip(FACTORS, cells[4:6])}
+        result["rows"][name] = {
+            word: {"changed": int(found[1]), "right": int(found[2] or 0)}
+            for word, found in figures.items() if found}
+    return result
 
 
 def is_current(thresholds):
     """Whether the page's rows are these thresholds with these values."""
-    rows = [[cell.strip() for cell in line.strip("|").split("|")]
-            for line in PAGE.read_text().splitlines() if line.startswith("| `")]
-    return [(row[0].strip("`"), row[1], row[2], row[3]) for row in rows] == [
+    return [(row[0].strip("`"), row[1], row[2], row[3]) for row in listed()] == [
         (t["name"], number(t["value"]), t["unit"], t["meaning"]) for t in thresholds]
 
 
@@ -167,11 +211,15 @@ def main():
     parser.add_argument("--run_blind", default="build/tests/run_blind")
     parser.add_argument("--only", default="")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--rewrite", action="store_true")
     arguments = parser.parse_args()
     thresholds = json.loads(subprocess.run(
         [arguments.program, "--list"], check=True, capture_output=True).stdout)
     if arguments.check:
         return 0 if is_current(thresholds) else f"{PAGE}: not of these thresholds"
+    if arguments.rewrite:
+        PAGE.write_text(page(thresholds, measured(thresholds)))
+        return 0
     folders = sorted(p for p in Path(arguments.cases).iterdir() if (p / "logs").exists())
     truth = {f.name: labels(f) for f in folders}
     saved = Path(arguments.cases) / "sensitivity.json"

@@ -35,9 +35,9 @@ std::vector<JointRows> LateFriction(const GapBaseline& baseline,
 }
 
 bool ShareOfEffect::IsOfThisSize() const {
-  constexpr double kByChance = 9;  // three deviations, squared
   const double missing = std::pow(1 - share, 2) * delta_chi2;
-  return missing < std::max(kByChance, Limits().form_error * delta_chi2);
+  return missing < std::max(std::pow(Limits().by_chance, 2),
+                            Limits().form_error * delta_chi2);
 }
 
 double ShareOfEffect::odds() const {

@@ -5,6 +5,13 @@
 
 namespace armcal {
 
+// Whether data tell a parameter, of whose variance before them this share is
+// left: I being their information on it, in units of the prior's,
+// 1 / (1 + I) is, and they tell more of it than the prior does where I > 1.
+inline bool IsToldByData(double variance_left) {
+  return 1 / variance_left - 1 > 1;
+}
+
 // What is known of a baseline's columns before the logs. Each is standard
 // normal and independent of the others, but for those that something tells
 // together, such as a calibration:

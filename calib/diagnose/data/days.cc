@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "calib/diagnose/data/column_prior.h"
 #include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
@@ -38,7 +39,7 @@ std::vector<int> ZeroColumns(const GapBaseline& baseline) {
 }
 
 // The largest one against the root mean square of the n others: Student's t of
-// n degrees, at kChanceOfDays of all joints together (Bonferroni); then the
+// n degrees, at ChanceBeyond of all joints together (Bonferroni); then the
 // next against what is left, as long as two others are.
 std::vector<int> BeyondTheOthers(const GapBaseline& baseline,
                                  const Eigen::VectorXd& x) {
@@ -52,7 +53,7 @@ std::vector<int> BeyondTheOthers(const GapBaseline& baseline,
     const double n = static_cast<double>(zeros.size());
     const boost::math::students_t t(n);
     const double most = boost::math::quantile(boost::math::complement(
-                            t, kChanceOfDays / (2 * joints))) *
+                            t, ChanceBeyond() / (2 * joints))) *
                         std::sqrt(x(zeros).squaredNorm() / n);
     if (std::abs(x[largest]) < most) break;
     beyond.push_back(largest);
@@ -85,7 +86,7 @@ std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
   std::vector<int> told, changed;
   for (const int c : DayColumns(baseline)) {
     if (static_cast<JointTerm>(baseline.columns()[c].index) != term) continue;
-    if (covariance(c, c) > Limits().told_of_day) continue;
+    if (!IsToldByData(covariance(c, c))) continue;
     told.push_back(c);
     if (std::abs(x[c]) > 1) changed.push_back(c);
   }
@@ -102,7 +103,7 @@ std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
   using boost::math::complement;
   const double chance = std::min(cdf(complement(chi_squared(count), of_each)),
                                  cdf(complement(chi_squared(1), of_mean)));
-  if (2 * chance > kChanceOfDays) return {};
+  if (2 * chance > ChanceBeyond()) return {};
   return changed;
 }
 

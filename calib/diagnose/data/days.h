@@ -19,15 +19,11 @@ std::vector<int> BeyondTheOthers(const GapBaseline& baseline,
 std::vector<int> NotableZeros(const GapBaseline& baseline,
                               const Eigen::VectorXd& x);
 
-// How often friction of an ordinary other day is taken for more: beyond three
-// standard deviations.
-inline constexpr double kChanceOfDays = .0027;
-
 // Of the days' columns of one joint term, x in their standard deviations: those
 // that changed by more than one, where the joints together, or their mean,
-// changed by more than chance has it (two tests: twice the smaller tail of chi
-// squared), on two joints at least: one change, as temperature makes it. Empty:
-// friction is that of an ordinary other day.
+// changed by more than chance has it (ChanceBeyond, two tests: twice the
+// smaller tail of chi squared), on two joints at least: one change, as
+// temperature makes it. Empty: friction is that of an ordinary other day.
 std::vector<int> ChangedTogether(const GapBaseline& baseline, JointTerm term,
                                  const Eigen::VectorXd& x,
                                  const Eigen::MatrixXd& covariance);

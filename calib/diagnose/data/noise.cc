@@ -21,14 +21,19 @@ int CountRows(const std::vector<VectorXd>& stretches) {
 }
 
 // Lag of the motion's repeats in fine samples; 0: none. A log begins and ends
-// with what does not repeat: a start, a stop, a rest.
-int RepeatLag(const Motion& motion) {
-  const int skip =
-      static_cast<int>(Limits().ends_without_repeat * motion.size());
-  const int size = motion.size() - 2 * skip;
+// with what does not repeat: a rest, and a start or a stop, which is a motion
+// from or into a posture and as long as the shortest that may repeat.
+int RepeatLag(const GapSegment& segment) {
+  const Motion& motion = segment.motion;
+  int begin = 0, end = motion.size();
+  while (begin < end && segment.still.row(begin).all()) ++begin;
+  while (begin < end && segment.still.row(end - 1).all()) --end;
+  const int start = static_cast<int>(Limits().shortest_period / motion.dt);
+  const int size = end - begin - 2 * start;
+  if (size < 1) return 0;
   const RecordedMotion recorded{
       VectorXd::LinSpaced(size, 0, (size - 1) * motion.dt),
-      motion.q.middleRows(skip, size)};
+      motion.q.middleRows(begin + start, size)};
   const auto lag = FindRepeat(recorded, recorded, Limits().shortest_period);
   return lag ? static_cast<int>(std::lround(*lag / motion.dt)) : 0;
 }
@@ -69,7 +74,7 @@ MatrixXd RepeatDifferences(const GapRows& rows,
   for (size_t i = 0; i < residual.size(); ++i) {
     const int s = static_cast<int>(i);
     const Motion& motion = rows.segments()[i].motion;
-    const int lag = RepeatLag(motion);
+    const int lag = RepeatLag(rows.segments()[i]);
     if (lag == 0) continue;
     const int size = motion.size() - lag;
     MatrixXd fine = MatrixXd::Zero(motion.size(), motion.num_joints());
@@ -120,11 +125,10 @@ double ExtraVariance(NoiseFloor source) {
     case NoiseFloor::kPositions:
       return Limits().extra_variance_of_noise;
     case NoiseFloor::kStandstill:
-      return Limits().extra_variance_of_rest;
     case NoiseFloor::kAssumed:
       break;
   }
-  return Limits().extra_variance_of_residual;
+  return Limits().extra_variance_of_others;
 }
 
 const char* NoiseFloorName(NoiseFloor source) {

@@ -188,7 +188,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
       AddErrors(*reconstructed, bandwidth_hz, &segment);
     }
     for (const TimeRange& burst :
-         TimesOf(FindTorqueBursts(segment, bandwidth_hz))) {
+         TimesOf(FindTorqueBursts(segment, bandwidth_hz), bandwidth_hz)) {
       segment.lost.push_back(burst);
     }
     Motion& motion = segment.motion;
@@ -212,6 +212,10 @@ void SetUsualTemperature(VectorXd* usual, std::vector<GapSegment>* segments) {
     if (usual->size() == 0) *usual = motion.temperature.row(0);
     motion.usual_temperature = *usual;
   }
+}
+
+double ResolvedTime(double bandwidth_hz) {
+  return 1 / (2 * M_PI * bandwidth_hz);
 }
 
 double MotionBandwidth(double bandwidth_hz) {

@@ -26,6 +26,10 @@ RecordedPositions AuditPositions(const Progress& progress, const LogSet& logs);
 
 // Of the motion of segments, Hz.
 double MotionBandwidth(double bandwidth_hz);
+// The time in which what passes a low pass turns by a radian, 1 / (2 pi f): a
+// shorter one is nothing to it, and one by which a signal is late is to first
+// order a factor of its derivative up to there. s
+double ResolvedTime(double bandwidth_hz);
 
 // Friction is the model's at the temperature of the first sample that was read,
 // which *usual is, or becomes where it is empty.

@@ -13,15 +13,6 @@ using Kind = ThresholdInfo::Kind;
 
 const std::vector<ThresholdInfo> kAll = {
     // What the model may vary
-    {"timing_with_reference", &T::timing_with_reference, "s",
-     "How far torque may lag behind position where a reference tells by "
-     "how much",
-     Kind::kTuned, "a UR10e whose torque is 18 ms late, three times that"},
-    {"reversal_of_reconstructed_torques", &T::reversal_of_reconstructed_torques,
-     "s",
-     "When friction changes sign, against a velocity whose low pass takes "
-     "a stop for a turn; reconstructed torques",
-     Kind::kTuned, "the 618 cases of seed 850757257, after their evaluation"},
     {"reversal_width", &T::reversal_width, "rad/s",
      "Speed over which friction changes sign (0.3 of it in m/s), where "
      "no calibration tells",
@@ -72,12 +63,10 @@ const std::vector<ThresholdInfo> kAll = {
      "90 simulated arms with and without misfit, and a KR300, a TX40 and "
      "a UR10e"},
     // From day to day
-    {"told_of_day", &T::told_of_day, "prior variance",
-     "A joint's friction is told where less than this of its prior is "
-     "left",
-     Kind::kTuned,
-     "calibration cases of seeds 3301 and 3302 and the building sets of real "
-     "robots"},
+    {"by_chance", &T::by_chance, "standard deviations",
+     "What is looked at by itself is more than chance beyond this, and tests "
+     "have the same tail",
+     Kind::kLaw, "0.27 % of a normal distribution"},
     {"clear_of_many", &T::clear_of_many, "standard deviations",
      "What is looked at on many joints or parameters at once is clear "
      "beyond this",
@@ -92,9 +81,6 @@ const std::vector<ThresholdInfo> kAll = {
     {"shortest_period", &T::shortest_period, "s",
      "Motion that repeats sooner is no repeat", Kind::kDefinition,
      "a motion between two postures takes longer"},
-    {"ends_without_repeat", &T::ends_without_repeat, "log",
-     "What a log begins and ends with need not repeat", Kind::kTuned,
-     "nothing that was noted, on 2026-11-20"},
     {"repeat_tolerance", &T::repeat_tolerance, "rms motion",
      "Motion is the same again within this share", Kind::kTuned,
      "nothing that was noted, on 2026-11-20"},
@@ -104,12 +90,11 @@ const std::vector<ThresholdInfo> kAll = {
      Kind::kTuned,
      "107 calibration cases of seed 301; 250 independent rows tell a variance "
      "so well"},
-    {"extra_variance_of_rest", &T::extra_variance_of_rest, "variance",
-     "The same of what was told at rest: motion adds clocks and encoders",
+    {"extra_variance_of_others", &T::extra_variance_of_others, "variance",
+     "The same of noise that was not told in motion, or by what a refit "
+     "leaves: "
+     "clocks, encoders and what the model lacks add to it",
      Kind::kTuned, "107 calibration cases of seed 301"},
-    {"extra_variance_of_residual", &T::extra_variance_of_residual, "variance",
-     "The same of what a refit leaves", Kind::kTuned,
-     "107 calibration cases of seed 301"},
     {"creep_speed", &T::creep_speed, "rad/s or m/s",
      "Below it a joint whose command rests creeps", Kind::kTuned,
      "calibration cases of seeds 91 to 94: 4 of 5 false alarms were contacts "
@@ -123,14 +108,6 @@ const std::vector<ThresholdInfo> kAll = {
     {"burst", &T::burst, "usual torque",
      "A second whose torque above the bandwidth is beyond this rings",
      Kind::kDefinition, "what a loop is that rings"},
-    {"burst_over_fast", &T::burst_over_fast, "middle second",
-     "and beyond this times what a joint's seconds have up there", Kind::kTuned,
-     "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
-     "641418970"},
-    {"burst_reach", &T::burst_reach, "s",
-     "Left out on both sides, per power of ten", Kind::kTuned,
-     "177 cases of elasticity and delay of seeds 839538295, 1917308019 and "
-     "641418970"},
     {"position_only", &T::position_only, "torque",
      "Torque that a law of position alone leaves less of was computed, "
      "not measured",
@@ -217,8 +194,9 @@ const std::vector<ThresholdInfo> kAll = {
      "Divides scores: neither noise nor catalogue nor forms are as a "
      "score assumes",
      Kind::kTuned, "the 95 % sets of 141 simulated cases held the truth"},
-    {"credible", &T::credible, "quantile", "Of the set of candidates",
-     Kind::kLaw, "the convention of intervals"},
+    {"credible", &T::credible, "quantile",
+     "Of the set of candidates; what is significant is outside of it",
+     Kind::kLaw, "the convention of intervals and tests"},
     {"likely", &T::likely, "1", "What is less likely is a candidate, no more",
      Kind::kLaw, "even odds"},
     {"likely_unseen", &T::likely_unseen, "1",
@@ -233,10 +211,6 @@ const std::vector<ThresholdInfo> kAll = {
      Kind::kLaw,
      "explained is N(E, 4 E) of an effect that is there: below 0 in 1 % where "
      "E = 4 (2.33)^2"},
-    {"helps", &T::helps, "noise", "unless their mean square falls by this",
-     Kind::kTuned,
-     "the false alarms of the 618 cases of seed 1720681888, after their "
-     "evaluation"},
     {"confirmation", &T::confirmation, "chi^2",
      "Held-out data that should have less of an effect tell little", Kind::kLaw,
      "explained / expected is the share within 2 / sqrt(expected); its "
@@ -253,14 +227,7 @@ const std::vector<ThresholdInfo> kAll = {
     {"explains", &T::explains, "gap",
      "What is claimed may remove this share of it: more than it leaves",
      Kind::kDefinition, "what explains"},
-    {"tells", &T::tells, "delta_chi2",
-     "A joint that has less of a delay tells nothing of it", Kind::kTuned,
-     "calibration cases of seeds 3301 and 3302 and the building sets of real "
-     "robots"},
     // Verdict
-    {"real", &T::real, "chi^2",
-     "What is left counts beyond this: it is not chance", Kind::kTuned,
-     "a prototype's simulated arm: an effect of .32 of the noise in 1000 rows"},
     {"left", &T::left, "gap",
      "and this share of what was there; effects that leave more explain "
      "in part",
@@ -279,9 +246,6 @@ const std::vector<ThresholdInfo> kAll = {
      "Positions and velocities that are no farther apart, rms over joints, are "
      "the same",
      Kind::kDefinition, "what coming back is"},
-    {"visible_share", &T::visible_share, "column's square",
-     "An effect of which the model leaves less cannot be told", Kind::kTuned,
-     "a prototype's simulated arm of six joints"},
     {"material", &T::material, "noise",
      "nor one of usual size that is smaller, rms", Kind::kDefinition,
      "what is `not testable`"},
@@ -331,6 +295,9 @@ const Thresholds& Limits() { return Own(); }
 double SeveralOf(int joints) {
   return std::min<double>(Limits().several_joints, joints);
 }
+
+// P(|x| > z) = erfc(z / sqrt 2) of a standard normal x.
+double ChanceBeyond() { return std::erfc(Limits().by_chance / std::sqrt(2.)); }
 
 const std::vector<ThresholdInfo>& ListThresholds() { return kAll; }
 

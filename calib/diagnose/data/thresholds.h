@@ -13,8 +13,6 @@ namespace armcal {
 // decides.
 struct Thresholds {
   // What the model may vary
-  double timing_with_reference = .05;
-  double reversal_of_reconstructed_torques = .005;
   double reversal_width = 6e-3;
   double width_mixture = .5;
   double offset_share = .02;
@@ -30,23 +28,19 @@ struct Thresholds {
   double discrepancy_state_frequency = .6;
 
   // From day to day
-  double told_of_day = .8;
+  double by_chance = 3;
   double clear_of_many = 5;
   double several_joints = 3;
 
   // Noise of the torque
   double noise_rows = 60;
   double shortest_period = 2;
-  double ends_without_repeat = .12;
   double repeat_tolerance = .01;
   double extra_variance_of_noise = .25;
-  double extra_variance_of_rest = 1;
-  double extra_variance_of_residual = 2;
+  double extra_variance_of_others = 1;
   double creep_speed = .004;
   double smooth_power = 1000;
   double burst = 1;
-  double burst_over_fast = 10;
-  double burst_reach = .5;
   double position_only = .1;
   double least_inertial = .01;
 
@@ -81,22 +75,18 @@ struct Thresholds {
   double likely_unseen = .7;
   double form_error = .2;
   double visible = 21.6;
-  double helps = .03;
   double confirmation = 4;
   double seen_again = .3;
   double untold = .5;
   double few = 4;
   double explains = .5;
-  double tells = .01;
 
   // Verdict
-  double real = 100;
   double left = .3;
   double absorbed = .5;
   double louder_in_motion = 3;
   double most_of_time = 1. / 3;
   double same_state = .1;
-  double visible_share = 1e-4;
   double material = .3;
   double far = 2;
   double notable = .5;
@@ -108,6 +98,9 @@ struct Thresholds {
 const Thresholds& Limits();
 // What counts as several of so many joints: several_joints, or all of fewer.
 double SeveralOf(int joints);
+// How probable a normal variable is by_chance standard deviations and more from
+// its mean, to either side.
+double ChanceBeyond();
 
 struct ThresholdInfo {
   // Whether it follows from a law (a quantile, a count, a published

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/rows.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "model/signals/low_pass.h"
 #include "model/text/format.h"
@@ -55,8 +56,10 @@ double Middle(const std::vector<Second>& seconds, double Second::*value) {
 // A loop that rings, or lost its stability for a moment, has torque above the
 // bandwidth which the motion does not ask for. Second by second, joint by
 // joint, that torque is compared with what is usual for the joint
-// (Limits().burst) and with what its own seconds usually have up there
-// (burst_over_fast): a joint that always swings is its own measure.
+// (Limits().burst) and with what its own seconds usually have up there: a joint
+// that always swings is its own measure. The rms of its middle second is the
+// standard deviation of that, which a second is clear of among as many as a log
+// has beyond Limits().clear_of_many of them.
 std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
                                           double bandwidth_hz) {
   std::vector<TorqueBurst> bursts;
@@ -69,7 +72,7 @@ std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
     const double usual = Middle(seconds, &Second::rms);
     const double least =
         std::max(Limits().burst * usual,
-                 Limits().burst_over_fast * Middle(seconds, &Second::fast));
+                 Limits().clear_of_many * Middle(seconds, &Second::fast));
     for (const Second& second : seconds) {
       if (usual == 0 || second.fast < least) continue;
       const double begin = motion.time(second.begin);
@@ -79,11 +82,11 @@ std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
   return bursts;
 }
 
-std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts) {
+std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts,
+                               double bandwidth_hz) {
+  const double reach = GapRows::kPeriodsAtEnds / bandwidth_hz;
   std::vector<TimeRange> times;
   for (const TorqueBurst& burst : bursts) {
-    const double reach =
-        Limits().burst_reach * (1 + std::log10(burst.fast / burst.usual));
     times.push_back({burst.window.begin - reach, burst.window.end + reach});
   }
   return times;

@@ -23,8 +23,10 @@ struct TorqueBurst {
 std::vector<TorqueBurst> FindTorqueBursts(const GapSegment& segment,
                                           double bandwidth_hz);
 
-// Times not to be believed, with what filters make of them on both sides.
-std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts);
+// Times not to be believed, with what filters at the bandwidth make of them on
+// both sides: as much as at the ends of a log (GapRows::kPeriodsAtEnds).
+std::vector<TimeRange> TimesOf(const std::vector<TorqueBurst>& bursts,
+                               double bandwidth_hz);
 
 // What a report says of them; nothing where there are none.
 std::vector<DataFinding> TellTorqueBursts(

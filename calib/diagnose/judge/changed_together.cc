@@ -5,6 +5,7 @@
 
 #include "calib/diagnose/data/days.h"
 #include "calib/diagnose/data/estimate_deviations.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "model/effects/effects.h"
 
 namespace armcal {
@@ -30,7 +31,7 @@ std::vector<FoundEffect> ListChangedTogether(const GapFit& fit) {
     FoundEffect found;
     found.effect = &effect;
     found.of_another_day = true;
-    found.probability = 1 - kChanceOfDays;
+    found.probability = 1 - ChanceBeyond();
     for (const int c : changed) {
       const BaselineColumn& column = baseline.columns()[c];
       const Joint& joint = baseline.robot().links[column.joint].joint;

@@ -59,8 +59,7 @@ bool IsContradicted(const FoundEffect& found) {
   return confirmation.expected >
              std::max(Limits().visible,
                       Limits().form_error * found.delta_chi2) &&
-         confirmation.explained < 0 &&
-         found.evidence.gain.value < Limits().helps;
+         confirmation.explained < 0 && !(found.evidence.gain.ci95[0] > 0);
 }
 
 bool IsClaimed(const FoundEffect& found) {

@@ -28,10 +28,10 @@ bool IsSeenAgain(const FoundEffect& found);
 bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
                         const GapFigures& held_out);
 
-// Whether held-out data should show it, and have neither chi^2 nor the mean
-// square lower with it. A form that is a little too large raises chi^2 alone;
-// and what is small compared to what it explained where it was fitted may be
-// what its form has wrong.
+// Whether held-out data should show it, and have neither chi^2 lower with it
+// nor the mean square for certain (the 95 % interval of its gain). A form that
+// is a little too large raises chi^2 alone; and what is small compared to what
+// it explained where it was fitted may be what its form has wrong.
 bool IsContradicted(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "calib/diagnose/data/column_prior.h"
 #include "calib/diagnose/data/estimate_deviations.h"
-#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 
 namespace armcal {
@@ -43,7 +43,7 @@ void DescribeMissingTerm(const GapFit& fit, const MatrixXd& covariance,
     const BaselineColumn& column = baseline.columns()[c];
     if (column.kind != BaselineColumn::Kind::kTerm) continue;
     if (static_cast<JointTerm>(column.index) != term) continue;
-    if (covariance(c, c) > Limits().told_of_day) continue;
+    if (!IsToldByData(covariance(c, c))) continue;
     const Joint& joint = robot.links[column.joint].joint;
     const std::string unit = JointTermUnit(term, joint.type);
     const double value = TermOf(term, joint);

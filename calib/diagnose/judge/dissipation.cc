@@ -4,14 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/description.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::VectorXd;
-
-constexpr double kBelowZero = 3;  // standard deviations
 
 // Of a term that the baseline has, how well it knows that; covariance: the
 // diagonal of the baseline's.
@@ -42,7 +41,7 @@ bool IsBelowNone(const GapFit& fit, size_t k, const Robot& with,
   const double stddev =
       std::hypot(std::sqrt(own),
                  StddevOf(fit.baseline(), covariance, effect.joint, *term));
-  return value < -kBelowZero * stddev;
+  return value < -Limits().by_chance * stddev;
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ bool MakesFrictionGivePower(const GapFit& fit, size_t k) {
         continue;
       }
       const double below =
-          -kBelowZero * StddevOf(fit.baseline(), covariance, j, term);
+          -Limits().by_chance * StddevOf(fit.baseline(), covariance, j, term);
       if (TermOf(term, with.links[j].joint) < below &&
           TermOf(term, without.links[j].joint) >= below) {
         return true;

@@ -35,10 +35,11 @@ struct LogWindow {
 };
 
 // The strongest window of .4 to 2 s over all joints (StrongWindows); none where
-// that is no more than Limits().real, which chance may give. Deviations are NaN
-// where a joint rests, and count as 0.
+// that has no more of chi squared than `least`. Deviations are NaN where a
+// joint rests, and count as 0.
 std::optional<LogWindow> StrongestWindow(const GapRows& rows,
-                                         const MatrixXd& deviations) {
+                                         const MatrixXd& deviations,
+                                         double least) {
   const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd left =
       deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
@@ -51,8 +52,7 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
     int searched = 0;
     for (const TimeWindow& window : StrongWindows(left.middleRows(begin, size),
                                                   t, durations, 1, &searched)) {
-      const double most =
-          strongest ? strongest->window.strength : Limits().real;
+      const double most = strongest ? strongest->window.strength : least;
       if (window.strength <= most) continue;
       strongest = {rows.segments()[i].log, window};
     }
@@ -100,17 +100,22 @@ void HeldOut::Follow() {
   after_.resize(0, 0);
 }
 
-// An arm that was touched in one log may have been in another: windows that
-// stand out from what the fitted effects leave are not judged by. What stands
-// out in more than a third of the time was no touch.
+// An arm that was touched in one log may have been in another: windows in which
+// what the fitted effects leave stands out as the weakest of the touches did
+// are not judged by. What stands out in more than a third of the time was no
+// touch.
 void HeldOut::MaskEvents() {
   constexpr int kMostWindows = 12;
   GapData* data = parts_[0].data.get();
   const MatrixXd residual =
       Residual(parts_[0], fit_.refined().effects, fit_.model_after());
+  double least = std::numeric_limits<double>::infinity();
+  for (const GapEvent& touch : fit_.events()) {
+    least = std::min(least, touch.delta_chi2);
+  }
   double masked = 0;
   for (int round = 0; round < kMostWindows; ++round) {
-    const auto worst = StrongestWindow(rows(), Deviations(residual));
+    const auto worst = StrongestWindow(rows(), Deviations(residual), least);
     if (!worst) return;
     const TimeWindow& window = worst->window;
     masked += 2 * window.duration;

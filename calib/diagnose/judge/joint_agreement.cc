@@ -14,16 +14,14 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Three standard deviations of a normal variable, both sides.
-constexpr double kChance = .0027;
 constexpr double kMotionOfAJoint = .02;  // rad/s or m/s
 
 // The tail probability of chi squared with `freedom` degrees below that of
-// three standard deviations of a normal variable.
+// Limits().by_chance standard deviations of a normal variable.
 bool IsMoreThanChance(double chi_squared, int freedom) {
   const boost::math::chi_squared chance(freedom);
   return boost::math::cdf(boost::math::complement(chance, chi_squared)) <
-         kChance;
+         ChanceBeyond();
 }
 
 // What was chosen as columns that come one after the other, without the
@@ -124,9 +122,10 @@ bool JointAgreement::Differ(double form) const {
 // differ by,
 //   Q = sum_j d_j' A_j d_j - d' (sum_j A_j) d,
 // is chi squared of (joints - 1) times as many degrees as there are columns
-// where all joints have the same size: Cochran's Q of a meta-analysis (1954). A
-// joint with less than Limits().tells of the effect's squared torque has no
-// say.
+// where all joints have the same size: Cochran's Q of a meta-analysis (1954),
+// in which each joint has the say that its own information gives it. Joints on
+// which no more of the effect's squared torque is left than rounding are none
+// that tell.
 JointAgreement JointAgreementOn(const GapFit& fit, size_t k) {
   const VectorXd x = RefinedSize(fit, k);
   const int size = static_cast<int>(x.size());
@@ -145,13 +144,12 @@ JointAgreement JointAgreementOn(const GapFit& fit, size_t k) {
     if (tells_none) continue;
     const VectorXd alone = x + further;
     agreement.seen_by += IsMoreThanChance(alone.dot(information * alone), size);
-    const bool shows_there = information.trace() > 1e-6 * all_told;
-    if (size == 1 && shows_there) {
+    if (!(information.trace() > 1e-6 * all_told)) continue;
+    if (size == 1) {
       const double unit = fit.candidates()[fit.selection().chosen[k]].size[0];
       agreement.joints.push_back(
           {j, unit * alone[0], std::abs(unit) / std::sqrt(information(0, 0))});
     }
-    if (information.trace() <= Limits().tells * all_told) continue;
     ++tell;
     agreement.chi_squared += further.dot(information * further);
     all += information;

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "calib/diagnose/data/estimate_deviations.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
@@ -14,7 +15,6 @@ using Eigen::VectorXd;
 // where p is 0 (Wald 1943). C is looked at in units of its deviations.
 bool AreSignificant(const VectorXd& p, const MatrixXd& covariance) {
   constexpr double kLeast = 1e-9;  // of the largest eigenvalue
-  constexpr double kLevel = .05;
   if (p.size() == 0) return true;
   const VectorXd unit =
       covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
@@ -33,7 +33,7 @@ bool AreSignificant(const VectorXd& p, const MatrixXd& covariance) {
   }
   if (rank == 0) return true;  // known exactly
   const boost::math::chi_squared chi_squared(rank);
-  return boost::math::cdf(boost::math::complement(chi_squared, W)) < kLevel;
+  return boost::math::cdf(chi_squared, W) > Limits().credible;
 }
 
 // Laws that a reference shows by itself, with the values and the deviations

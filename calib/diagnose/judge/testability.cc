@@ -10,15 +10,16 @@
 namespace armcal {
 namespace {
 
+// Of an effect of usual size, rms over the noise's: of its torque, and of what
+// the baseline cannot take for its own.
 struct Visibility {
-  double share = 0;  // that the baseline does not absorb
-  double size = 0;   // rms over the noise's, of an effect of usual size
+  double alone = 0;
+  double size = 0;
 };
 
 // The effect-to-noise ratio (ENR): the rms of the effect's torque in units of
 // the noise, after the baseline has taken of it what it could, G_cc being its
 // squared norm then. Where its joint does not move, the others may feel it.
-// `share`: what of the column's own square is left.
 Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
   Visibility visibility;
   const GapScreen& screen = fit.screen();
@@ -29,19 +30,20 @@ Visibility VisibilityOf(const GapFit& fit, const GapCandidate& candidate) {
     if (!own || candidate.joint == j) rows += screen.num_rows(j);
   }
   for (const int c : candidate.columns) {
-    if (!(screen.raw(c) > 0)) continue;
-    visibility.share = std::max(visibility.share, screen.visible(c));
-    visibility.size = std::max(
-        visibility.size,
-        std::sqrt(std::max(0., screen.G()(c, c)) / std::max(1., rows)));
+    const auto rms = [&](double square) {
+      return std::sqrt(std::max(0., square) / std::max(1., rows));
+    };
+    visibility.alone = std::max(visibility.alone, rms(screen.raw(c)));
+    visibility.size = std::max(visibility.size, rms(screen.G()(c, c)));
   }
   return visibility;
 }
 
+// What would be seen by itself and is not beside the baseline, that absorbs.
 std::string WhyNot(const Visibility& visibility, bool moves) {
   if (visibility.size >= Limits().material) return "";
   if (!moves) return "the joint does not move";
-  if (visibility.share < Limits().visible_share) {
+  if (visibility.alone >= Limits().material) {
     return "the model's own parameters would take it for theirs";
   }
   return "one that matters would hide in the noise of this motion";
@@ -60,7 +62,7 @@ std::vector<UntestableEffect> ListUntestable(
   for (const GapCandidate& candidate : fit.candidates()) {
     Visibility& best = seen[{candidate.effect, candidate.joint}];
     const Visibility own = VisibilityOf(fit, candidate);
-    best.share = std::max(best.share, own.share);
+    best.alone = std::max(best.alone, own.alone);
     best.size = std::max(best.size, own.size);
   }
   const Robot& robot = fit.baseline().robot();

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "calib/diagnose/candidates/effect_odds.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/evidence_noise.h"
 #include "calib/diagnose/select/selection.h"
@@ -90,7 +91,7 @@ int Likeliest(const VectorXd& scores, const VectorXd& explained, double all,
     }
     return best;
   };
-  const int of_most = best_beyond(.5 * all);
+  const int of_most = best_beyond(Limits().explains * all);
   return of_most >= 0 ? of_most
                       : best_beyond(-std::numeric_limits<double>::infinity());
 }

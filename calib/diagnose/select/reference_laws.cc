@@ -11,6 +11,7 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/noise.h"
 #include "calib/diagnose/data/screen.h"
+#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/reference_fit.h"
 #include "calib/diagnose/select/reference_folds.h"
@@ -97,18 +98,16 @@ class LawSearch {
   }
 
  private:
-  // Those of dry friction of which a parameter is told to three standard
-  // deviations.
+  // Those of dry friction of which a parameter is more than chance.
   std::vector<int> ToldDryFriction(const std::vector<int>& chosen,
                                    const GapScreen::Fit& fit) const {
-    constexpr double kTold = 3;
     std::vector<int> dry;
     Eigen::Index at = 0;
     for (const int c : chosen) {
       bool is_told = false;
       for (size_t k = 0; k < candidates_[c].linear.size(); ++k, ++at) {
         is_told |= std::abs(fit.coefficients[at]) >
-                   kTold * std::sqrt(fit.covariance(at, at));
+                   Limits().by_chance * std::sqrt(fit.covariance(at, at));
       }
       if (is_told && IsDryFriction(*candidates_[c].effect)) dry.push_back(c);
     }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "calib/diagnose/candidates/refinement.h"
+#include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
@@ -77,7 +78,6 @@ ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
 // and a joint's scatter that times its own expected one.
 ReferenceScatter PooledScatter(const ReferenceScatter& own,
                                const std::vector<ReferenceScatter>& others) {
-  constexpr double kChance = .05;
   const auto ratio = [](const ReferenceScatter& one) {
     return std::pow(one.stddev / one.expected, 2);
   };
@@ -92,8 +92,7 @@ ReferenceScatter PooledScatter(const ReferenceScatter& own,
   if (freedom == 0 || !(sum > 0)) return own;
   const boost::math::fisher_f chance(own.freedom, freedom);
   const double most =
-      sum / freedom *
-      boost::math::quantile(boost::math::complement(chance, kChance));
+      sum / freedom * boost::math::quantile(chance, Limits().credible);
   if (ratio(own) > most) return own;
   ReferenceScatter pooled = own;
   pooled.freedom += freedom;

@@ -91,6 +91,9 @@ class GapNoiseTest : public testing::Test {
 
 TEST_F(GapNoiseTest, IsWhatDiffersFromRepeatToRepeat) {
   Move(3);
+  for (int k = 0; k < t_.size(); ++k) {
+    if (moves_[k] == 0) segments_[0].still.row(k) = true;
+  }
   const GapNoise noise = Estimate();
   EXPECT_EQ(noise.source, NoiseFloor::kRepeats);
   ExpectNoise(noise, 0);

@@ -60,7 +60,7 @@ TEST(TorqueBursts, AreFoundWhereTheyAre) {
   EXPECT_NEAR(bursts[1].window.end, 13, kStep);
   EXPECT_NEAR(bursts[1].usual, 5, .01);
   EXPECT_NEAR(bursts[1].fast, 15000, 300);
-  for (const TimeRange& time : TimesOf(bursts)) {
+  for (const TimeRange& time : TimesOf(bursts, kBandwidth)) {
     EXPECT_TRUE(time.Contains(12.5));
     EXPECT_FALSE(time.Contains(8) || time.Contains(17));
   }
@@ -76,7 +76,7 @@ TEST(TorqueBursts, AreFoundAgainAndAgain) {
   const std::vector<TorqueBurst> bursts = Find(segment);
   EXPECT_THAT(bursts, SizeIs(9));
   EXPECT_NEAR(bursts.at(0).usual, 20, .5);
-  for (const TimeRange& time : TimesOf(bursts)) {
+  for (const TimeRange& time : TimesOf(bursts, kBandwidth)) {
     EXPECT_LT(time.end - time.begin, 2.6);
   }
 }
@@ -106,7 +106,7 @@ TEST(TorqueBursts, AreOfReconstructedTorquesOnly) {
 TEST(TorqueBursts, AreNotUsual) {
   GapSegment segment = Burst();
   EXPECT_GT(UsualTorque({segment})[1], 1000);
-  segment.lost = TimesOf(Find(segment));
+  segment.lost = TimesOf(Find(segment), kBandwidth);
   EXPECT_NEAR(UsualTorque({segment})[0], 20, .1);
   EXPECT_NEAR(UsualTorque({segment})[1], 5, .1);
 }

@@ -75,6 +75,7 @@ class IsClaimedTest : public testing::Test {
                double explained = 500) {
     found_.probability = probability;
     found_.evidence.gain.value = gain;
+    found_.evidence.gain.ci95[0] = gain - .05;
     found_.evidence.confirmation = {expected, explained};
     return IsClaimed(found_);
   }

@@ -26,6 +26,12 @@ TEST(UnexplainedOf, IsOrderedOrMuch) {
   EXPECT_EQ(UnexplainedOf(left), 0);
 }
 
+// Chi squared of 400 rows has a standard deviation of 28.
+TEST(UnexplainedOf, IsNoChance) {
+  EXPECT_EQ(UnexplainedOf({140, 400, NoiseFloor::kRepeats, true, 2}), 0);
+  EXPECT_EQ(UnexplainedOf({143, 400, NoiseFloor::kRepeats, true, 2}), 143);
+}
+
 TEST(UnexplainedOf, IsThereAgainInWhatWasHeldOut) {
   JointLeft left{3000, 400, NoiseFloor::kRepeats, true, .9};
   EXPECT_EQ(UnexplainedOf(left), 0);
@@ -53,8 +59,7 @@ TEST(JudgeGap, WhatHasNoNameIsUnknown) {
   facts.left_share = .9;
   facts.left = 1000;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
-  // Chance gives as much.
-  facts.left = 50;
+  facts.left = 0;
   EXPECT_NE(JudgeGap(facts), GapVerdict::kUnknown);
 }
 
