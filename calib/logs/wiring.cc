@@ -197,7 +197,7 @@ TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& all) const {
 }
 
 TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& all,
-                                   const std::vector<bool>& held) const {
+                                   std::vector<bool> held) const {
   constexpr int kRounds = 3;  // of the joints' noise
   const auto n = static_cast<int>(columns_.size());
   const MatrixXd tau = InMotion(all);
@@ -208,6 +208,11 @@ TorqueFit::Fitted TorqueFit::FitTo(const MatrixXd& all,
   Fitted fitted;
   for (int round = 0; round < kRounds; ++round) {
     fitted.x = Solve(tau, variance, held);
+    // A joint term that came out negative is not asked for again: one that
+    // comes and goes from round to round makes what is left, over delays, jump.
+    for (const int c : not_negative_) {
+      if (c >= 10 * n && fitted.x[c] == 0) held[c] = true;
+    }
     const VectorXd off = fitted.x - nominal_;
     fitted.misfit = .5 * off.dot(prior_ * off);
     fitted.squares = Squares(fitted.x, tau);

@@ -29,9 +29,10 @@ struct Wiring {
 WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
 
 // How well torques fit an arm that moves like this, with inertias, friction and
-// armature fitted as they can be: friction takes power, and inertias are those
-// of the file to their own size (InertialPrior, trust 1). Nothing is asked of a
-// joint where it stands still.
+// armature fitted as they can be: friction takes power, masses and moments of
+// inertia are not negative, and inertias are those of the file to their own
+// size (InertialPrior, trust 1). Nothing is asked of a joint where it stands
+// still.
 class TorqueFit {
  public:
   TorqueFit(const Robot& robot, const Motion& motion);
@@ -66,7 +67,7 @@ class TorqueFit {
   };
   Fitted FitTo(const Eigen::MatrixXd& tau) const;
   // Parameters that are `held` stay at zero.
-  Fitted FitTo(const Eigen::MatrixXd& tau, const std::vector<bool>& held) const;
+  Fitted FitTo(const Eigen::MatrixXd& tau, std::vector<bool> held) const;
   Eigen::VectorXd Solve(const Eigen::MatrixXd& tau,
                         const Eigen::VectorXd& variance,
                         const std::vector<bool>& held) const;
