@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/diagnose/diagnosis.h"
+
+namespace armcal {
+
+// What of the terms that the file gives no joint, and that are named as
+// lacking, no joint can have: friction or armature that the logs tell to be
+// below zero on some joint and above on none. A refit has no bounds, and
+// torques whose sign is wrong fit it with such numbers; then nothing that is
+// named is there. Nothing of changes since a reference: there may be less of
+// all of them.
+std::vector<DataFinding> TellImpossibleTerms(const GapDiagnosis& diagnosis);
+
+}  // namespace armcal
