@@ -374,7 +374,7 @@ void Diagnoser::Judge() {
               std::back_inserter(result_.data));
   };
   add(AuditTorque(robot_, fit_->rows()));
-  add(TellImpossibleTerms(result_));
+  add(TellImpossibleTerms(result_.effects, result_.moved));
   const bool testable = result_.data.empty();
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));

@@ -12,27 +12,28 @@ namespace {
 // lacks may be as much again.
 constexpr double kBeyondDoubt = 4;
 
-bool IsOf(const FoundEffect& found, const MovedParameter& moved) {
-  return moved.term && found.effect->joint_term == moved.term;
+bool IsOf(const FoundEffect& found, const MovedParameter& one) {
+  return one.term && found.effect->joint_term == one.term;
 }
 
 }  // namespace
 
-std::vector<DataFinding> TellImpossibleTerms(const GapDiagnosis& diagnosis) {
+std::vector<DataFinding> TellImpossibleTerms(
+    const std::vector<FoundEffect>& effects,
+    const std::vector<MovedParameter>& moved) {
   std::vector<DataFinding> findings;
-  if (diagnosis.has_reference) return findings;
-  for (const FoundEffect& found : diagnosis.effects) {
+  for (const FoundEffect& found : effects) {
     if (!found.fitted.empty() || found.effect->joint_term == JointTerm::kOffset)
       continue;
     std::vector<std::string> below;
     bool any_above = false;
-    for (const MovedParameter& moved : diagnosis.moved) {
-      if (!IsOf(found, moved)) continue;
-      any_above |= moved.value > kBeyondDoubt * moved.stddev;
-      if (!(moved.value < -kBeyondDoubt * moved.stddev)) continue;
-      below.push_back(moved.name +
-                      Format(" (%.3g +- %.2g ", moved.value, moved.stddev) +
-                      moved.unit + ")");
+    for (const MovedParameter& one : moved) {
+      if (!IsOf(found, one)) continue;
+      any_above |= one.value > kBeyondDoubt * one.stddev;
+      if (!(one.value < -kBeyondDoubt * one.stddev)) continue;
+      below.push_back(one.name +
+                      Format(" (%.3g +- %.2g ", one.value, one.stddev) +
+                      one.unit + ")");
     }
     if (below.empty() || any_above) continue;
     findings.push_back(

@@ -2,7 +2,9 @@
 
 #include <vector>
 
-#include "calib/diagnose/diagnosis.h"
+#include "calib/diagnose/data/audit.h"
+#include "calib/diagnose/judge/found_effect.h"
+#include "calib/diagnose/judge/moved.h"
 
 namespace armcal {
 
@@ -10,8 +12,10 @@ namespace armcal {
 // lacking, no joint can have: friction or armature that the logs tell to be
 // below zero on some joint and above on none. A refit has no bounds, and
 // torques whose sign is wrong fit it with such numbers; then nothing that is
-// named is there. Nothing of changes since a reference: there may be less of
-// all of them.
-std::vector<DataFinding> TellImpossibleTerms(const GapDiagnosis& diagnosis);
+// named is there. `moved`: the values that are far from the file's. Changes
+// since a reference are no such terms: there may be less of all of them.
+std::vector<DataFinding> TellImpossibleTerms(
+    const std::vector<FoundEffect>& effects,
+    const std::vector<MovedParameter>& moved);
 
 }  // namespace armcal

@@ -10,7 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 // Of the torque's squares: no model leaves less than 1 % of the torque.
-constexpr double kLeastLeft = 1e-4;
+constexpr double kLeastUnexplained = 1e-4;
 // Of squares: more is explained than is left. Of the 118 logs of
 // ../shared/data, whose gravity is right, turned gravity leaves .56 and .69
 // (kr300's log_A) and more.
@@ -24,7 +24,7 @@ double GeometricMean(const VectorXd& x) {
 
 BodiesOfFile::BodiesOfFile(const TorqueFit& fit, const Eigen::MatrixXd& tau) {
   const VectorXd torque = fit.InMotion(tau).colwise().squaredNorm();
-  const VectorXd least = (kLeastLeft * torque).array() + 1e-18;
+  const VectorXd least = (kLeastUnexplained * torque).array() + 1e-18;
   const VectorXd file = fit.SquaresBesideFile(tau) + least;
   const VectorXd none = fit.SquaresBesideNoBodies(tau) + least;
   joints = file.cwiseQuotient(none);

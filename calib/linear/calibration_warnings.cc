@@ -77,16 +77,17 @@ void WarnOfHeldOut(const Robot& robot, const LinearCalibration& result,
 
 // Standard deviations below zero: one in thirty thousand by chance, and what
 // the model lacks may be as much again.
-constexpr double kBelowZero = 4;
+constexpr double kBeyondChance = 4;
 
 // An estimate u' x of a combination u of the parameters.
-struct Estimate {
+struct BoundedEstimate {
   double value = 0, stddev = 0;
-  bool IsNegative() const { return value < -kBelowZero * stddev; }
-  bool IsPositive() const { return value > kBelowZero * stddev; }
+  bool IsNegative() const { return value < -kBeyondChance * stddev; }
+  bool IsPositive() const { return value > kBeyondChance * stddev; }
 };
 
-Estimate EstimateOf(const Eigen::VectorXd& u, const LinearCalibration& result) {
+BoundedEstimate EstimateOf(const Eigen::VectorXd& u,
+                           const LinearCalibration& result) {
   for (int k = 0; k < u.size(); ++k) {
     if (u[k] != 0 && !result.identifiable[k]) return {0, 1};
   }
@@ -145,7 +146,7 @@ Eigen::VectorXd ColumnsOf(JointTerm term, int joint,
   return u;
 }
 
-bool IsUnpowered(const LinearCalibration& result, int joint) {
+bool HasHardlyTorque(const LinearCalibration& result, int joint) {
   return std::any_of(
       result.unpowered.begin(), result.unpowered.end(),
       [joint](const UnpoweredJoint& u) { return u.joint == joint; });
@@ -156,7 +157,8 @@ bool IsUnpowered(const LinearCalibration& result, int joint) {
 // which then gives power. Where one of the two is positive beyond doubt no sign
 // is wrong, and the model lacks something: Coulomb friction is below zero where
 // friction grows less than in proportion to speed, on logs of real arms, too.
-std::string CauseOfNegative(const Estimate& inertia, const Estimate& friction) {
+std::string CauseOfNegative(const BoundedEstimate& inertia,
+                            const BoundedEstimate& friction) {
   const char* const of_the_model =
       "its friction has another law, or the motion tells too little";
   if (friction.IsPositive()) {
@@ -182,10 +184,10 @@ void WarnOfNegative(const Robot& robot, const LinearCalibration& result,
   const ModelParameters& parameters = result.parameters;
   const Eigen::MatrixXd inertias = MeanInertias(parameters);
   for (int j = 0; j < parameters.num_joints(); ++j) {
-    if (IsUnpowered(result, j)) continue;
+    if (HasHardlyTorque(result, j)) continue;
     const Joint& joint = robot.links[j].joint;
     std::vector<std::string> told;
-    const auto tell = [&](const char* what, const Estimate& estimate,
+    const auto tell = [&](const char* what, const BoundedEstimate& estimate,
                           JointTerm term) {
       if (!estimate.IsNegative()) return;
       told.push_back(what +
@@ -194,8 +196,8 @@ void WarnOfNegative(const Robot& robot, const LinearCalibration& result,
     };
     const Eigen::VectorXd u = ColumnsOf(JointTerm::kViscous, j, parameters);
     const Eigen::VectorXd v = ColumnsOf(JointTerm::kCoulomb, j, parameters);
-    const Estimate inertia = EstimateOf(inertias.row(j), result);
-    const Estimate friction =
+    const BoundedEstimate inertia = EstimateOf(inertias.row(j), result);
+    const BoundedEstimate friction =
         EstimateOf(std::sqrt(result.mean_square_speed[j]) * u + v, result);
     tell("inertia (with armature)", inertia, JointTerm::kArmature);
     tell("viscous friction", EstimateOf(u, result), JointTerm::kViscous);

@@ -23,16 +23,16 @@ std::string WhatMassesAreFar(const NonlinearCalibration& refined) {
     if (!(file > 0) || IsDeclaredMassless(link)) continue;
     if (mass < kFar * file && file < kFar * mass) continue;
     far.push_back(link.name +
-                  Format(" (%.3g kg, the file's %.3g)", mass, file));
+                  Format(" (%.3g kg, in the file %.3g)", mass, file));
   }
   if (far.empty()) return "";
-  return "no arm like the file's was found: " + Enumeration(far) +
-         (far.size() > 1 ? " have" : " has") +
-         " more than ten times the mass that the file says, or less than a "
-         "tenth. Are gravity's direction and the signs and units of torques "
-         "and "
-         "positions right (armcal inspect), or are the file's masses "
-         "placeholders?";
+  return "more than ten times the mass that the file says, or less than a "
+         "tenth, "
+         "was found for " +
+         Enumeration(far) +
+         ". If it carries no load that the file lacks, and these masses are no "
+         "placeholders: are gravity's direction and the signs and units of "
+         "torques and positions right (armcal inspect)?";
 }
 
 }  // namespace armcal
