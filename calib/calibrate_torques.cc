@@ -20,6 +20,7 @@
 #include "calib/linear/verdict.h"
 #include "calib/log_doubts.h"
 #include "calib/poses/unit_audit.h"
+#include "calib/refine/far_masses.h"
 #include "calib/refine/impossible_robot.h"
 #include "calib/refine/nonlinear_report.h"
 #include "calib/refine/trajectory_refinement.h"
@@ -158,6 +159,8 @@ class TorqueCalibrator {
   // False where no robot that can exist explains the logs, which the verdict
   // tells before all else.
   bool IsPossible(nlohmann::json* json);
+  // Before the report, where masses are far from the file's.
+  void WarnOfMasses(nlohmann::json* json);
   void Draw();
 
   const LinearCalibration& linear() const { return *details_->linear; }
@@ -299,6 +302,15 @@ bool TorqueCalibrator::IsPossible(nlohmann::json* json) {
   return false;
 }
 
+void TorqueCalibrator::WarnOfMasses(nlohmann::json* json) {
+  if (!details_->refined) return;
+  const std::string far = WhatMassesAreFar(*details_->refined);
+  if (far.empty()) return;
+  (*json)["warnings"].push_back(far);
+  summary_.report = "warning    " + far + "\n" + summary_.report;
+  summary_.brief = far + " " + summary_.brief;
+}
+
 // Of what is held out, where there is something.
 void TorqueCalibrator::Draw() {
   if (!options_.draw_torques || !linear().solved) return;
@@ -356,6 +368,7 @@ CalibrateSummary TorqueCalibrator::Run() {
   const bool refined = Refine(&json);
   AddForceTorque(&json);
   AddDriveTrains(&json);
+  WarnOfMasses(&json);
   const bool possible = IsPossible(&json);
   AddLogDoubts(robot_, input_, options_, *training_, *details_, &json,
                &summary_);

@@ -7,6 +7,7 @@
 
 #include "calib/log_readings.h"
 #include "calib/numerics/median.h"
+#include "calib/refine/far_masses.h"
 
 namespace armcal {
 namespace {
@@ -83,6 +84,7 @@ bool MayBeMisread(const LogSet& training, const CalibrationDetails& details,
   const auto& refined = details.refined;
   if (!refined || !refined->solved || !refined->training) return true;
   return LeavesMuch(*refined->training) ||
+         (questions.scales && !WhatMassesAreFar(*refined).empty()) ||
          (refined->validation && LeavesMuch(*refined->validation)) ||
          (questions.scales && HasMassesOfOtherSize(*refined));
 }

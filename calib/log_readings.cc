@@ -12,8 +12,9 @@ namespace {
 
 const std::set<std::string>& OfAnotherArm() {
   static const std::set<std::string> kFindings = {
-      "position_unit", "joint_order", "position_order", "torque_order",
-      "joint_sign",    "torque_sign", "position_sign",  "unsigned_torque"};
+      "position_unit", "joint_order",     "position_order",
+      "torque_order",  "joint_sign",      "torque_sign",
+      "position_sign", "unsigned_torque", "gravity"};
   return kFindings;
 }
 
@@ -23,6 +24,15 @@ const std::set<std::string>& OfAnotherScale() {
   return kFindings;
 }
 
+// Gravity so far from the file's is no tilt of the base, which is an effect
+// that a diagnosis names by itself.
+constexpr double kLeastCosine = .5;
+
+bool IsTilt(const Robot& robot, const LogReading& reading) {
+  const double sizes = reading.gravity.norm() * robot.gravity.norm();
+  return reading.gravity.dot(robot.gravity) >= kLeastCosine * sizes;
+}
+
 // What cannot be read at all is refused where the log is opened for what it is
 // wanted for, which says more.
 std::vector<InspectionFinding> FindingsOf(const Robot& robot,
@@ -30,9 +40,14 @@ std::vector<InspectionFinding> FindingsOf(const Robot& robot,
                                           const LogReaderOptions& options,
                                           int most_rows) {
   try {
-    return InspectLog(robot, log, options, 0,
-                      most_rows > 0 ? most_rows : kMostInspectedRows)
-        .findings;
+    LogInspection inspection = InspectLog(
+        robot, log, options, 0, most_rows > 0 ? most_rows : kMostInspectedRows);
+    if (IsTilt(robot, inspection.reading)) {
+      DropFindings(
+          [](const InspectionFinding& f) { return f.finding == "gravity"; },
+          &inspection.findings);
+    }
+    return inspection.findings;
   } catch (const InputError&) {
     return {};
   }

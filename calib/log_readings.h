@@ -20,7 +20,8 @@ struct ReadingQuestions {
 };
 
 // What makes logs those of another arm than the robot's: units, signs or the
-// order of columns (InspectLog). Whatever fits them then is no effect, however
+// order of columns, or gravity that points elsewhere by more than a base is
+// tilted (InspectLog). Whatever fits them then is no effect, however
 // well it fits. Each leads a diagnosis. What only scales torques is not among
 // them where `scales` is false: a reference that was recorded alike has it,
 // too.

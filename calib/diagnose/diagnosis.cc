@@ -13,6 +13,7 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/freedom.h"
+#include "calib/diagnose/impossible_terms.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/given_up.h"
 #include "calib/diagnose/judge/held_out.h"
@@ -374,6 +375,7 @@ void Diagnoser::Judge() {
               std::back_inserter(result_.data));
   };
   add(AuditTorque(robot_, fit_->rows()));
+  add(TellImpossibleTerms(result_.effects, result_.moved));
   const bool testable = result_.data.empty();
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
@@ -397,8 +399,7 @@ void Diagnoser::Judge() {
   for (const JointGap& joint : result_.joints) facts.left += joint.unexplained;
   facts.torque = result_.torque;
   for (const FoundEffect& found : result_.effects) {
-    if (found.of_another_day) continue;
-    facts.effects = true;
+    facts.effects |= !found.of_another_day;
   }
   facts.found_without_name = found_without_name_;
   facts.since_reference = result_.has_reference;

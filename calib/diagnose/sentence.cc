@@ -89,8 +89,9 @@ std::string Agreement(const GapDiagnosis& diagnosis) {
   }
   if (joint.empty()) return agrees + ".";
   if (most < 1) {
-    return agrees + Format(", up to %.2g %% of the torque (%s).", 100 * most,
-                           joint.c_str());
+    return agrees + (is_assumed ? " and is" : ", which is") +
+           Format(" up to %.2g %% of the torque of %s.", 100 * most,
+                  joint.c_str());
   }
   return agrees + ", which is as large as the torque of " + joint +
          ": that tells nothing of it.";

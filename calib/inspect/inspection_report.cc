@@ -210,7 +210,8 @@ std::string FullReport(const Robot& robot,
                        const std::vector<InspectionFinding>& of_robot,
                        const std::vector<LogInspection>& logs) {
   std::string text =
-      Format("%s: %d joints\n", robot.name.c_str(), robot.num_joints());
+      Format("%s: %d joint%s\n", robot.name.c_str(), robot.num_joints(),
+             robot.num_joints() == 1 ? "" : "s");
   // With logs the report is theirs.
   if (logs.empty()) text += DescriptionText(robot);
   for (const InspectionFinding& finding : of_robot) {

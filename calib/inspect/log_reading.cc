@@ -11,6 +11,7 @@
 #include "calib/inspect/held_out_fit.h"
 #include "calib/inspect/reading_candidates.h"
 #include "calib/inspect/torque_delay.h"
+#include "calib/inspect/turned_gravity.h"
 #include "model/robot/axis_rotation.h"
 
 namespace armcal {
@@ -59,6 +60,7 @@ class Reader {
     TakeHintedUnits();
     while (static_cast<int>(changes_.size()) < kMostChanges && Improve()) {
     }
+    TurnGravity();
     RefineGravity();
     finding.reading = best_;
     finding.changes = changes_;
@@ -98,6 +100,7 @@ class Reader {
 
   std::vector<Candidate> Candidates() {
     std::vector<Candidate> all = WiringCandidates(best_, Asked());
+    if (FoundGravity() != changes_.end()) AddTurnedGravity(&all);
     const double magnitude =
         robot_.gravity.norm() > 0 ? robot_.gravity.norm() : 9.81;
     for (const Candidate& candidate : GravityCandidates(best_, magnitude)) {
@@ -186,10 +189,11 @@ class Reader {
     Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
   }
 
-  // The offsets and first moments of one joint that moves alone say the same as
-  // gravity's direction.
+  // The offsets and first moments of one of several joints that moves alone say
+  // the same as gravity's direction.
   bool AsksGravity() const {
-    return hints_.asks_gravity && (num_moving_ > 1 || robot_.num_joints() == 1);
+    return hints_.asks_gravity &&
+           num_moving_ >= std::min(2, robot_.num_joints());
   }
 
   bool Confirms(const Candidate& candidate, const HeldOutFit& held_out) const {
@@ -229,7 +233,10 @@ class Reader {
     std::vector<ReadingChange> alternatives;
     for (size_t i = 0; i < all.size(); ++i) {
       const ReadingChange& other = all[i].change;
-      if (!MayBeEither(other, change)) continue;
+      if (!MayBeEither(other, change) ||
+          all[i].reading.gravity != all[k].reading.gravity) {
+        continue;
+      }
       bool does_as_well = misfits[i] < misfits[k] + kLeastGain;
       if (!does_as_well && misfits[i] < least_ - kLeastGain) {
         const HeldOutFit fit = HeldOut(all[i].reading);
@@ -249,6 +256,41 @@ class Reader {
     candidate.change.held_out_after = held_out.residual_percent;
     changes_.push_back(candidate.change);
     best_ = candidate.reading;
+    least_ = misfit;
+    held_out_ = held_out;
+  }
+
+  std::vector<ReadingChange>::iterator FoundGravity() {
+    return std::find_if(
+        changes_.begin(), changes_.end(),
+        [](const ReadingChange& c) { return c.kind == Kind::kGravity; });
+  }
+
+  // Gravity the other way round, where the file's own bodies say so.
+  void TurnGravity() {
+    if (best_.gravity.norm() == 0 || !AsksGravity() || moves_.size() == 1) {
+      return;
+    }
+    const LogReading turned = WithTurnedGravity(best_);
+    const double misfit = Misfit(turned);
+    if (!(misfit < least_ - kLeastGain)) return;
+    const Eigen::MatrixXd tau = SamplesOf(best_).tau;
+    const BodiesOfFile as_is(FitOf(best_), tau), so(FitOf(turned), tau);
+    if (!AreOfTurnedGravity(as_is, so)) return;
+    const HeldOutFit held_out = HeldOut(turned);
+    const auto before = FoundGravity();
+    if (before == changes_.end()) {
+      Accept({turned, {Kind::kGravity}}, misfit, 1, held_out);
+      changes_.back().hint = EvidenceOf(as_is, so);
+      return;
+    }
+    if (turned.gravity.isApprox(robot_.gravity)) {
+      changes_.erase(before);  // it is as the file has it
+    } else {
+      before->held_out_after = held_out.residual_percent;
+      before->gain += least_ - misfit;
+    }
+    best_ = turned;
     least_ = misfit;
     held_out_ = held_out;
   }
@@ -283,9 +325,7 @@ class Reader {
     if (tilt < kLeastTilt || misfit > least_ - kLeastGain) return;
     const HeldOutFit held_out = HeldOut(at);
     // One change of gravity, not two.
-    const auto before = std::find_if(
-        changes_.begin(), changes_.end(),
-        [](const ReadingChange& c) { return c.kind == Kind::kGravity; });
+    const auto before = FoundGravity();
     if (before == changes_.end()) {
       if (!Confirms({at, {Kind::kGravity}}, held_out)) return;
       Accept({at, {Kind::kGravity}}, misfit, 1, held_out);

@@ -87,14 +87,29 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
   return all;
 }
 
+LogReading WithTurnedGravity(LogReading reading) {
+  reading.gravity = Vector3d::Zero() - reading.gravity;  // without minus zeros
+  return reading;
+}
+
+void AddTurnedGravity(std::vector<Candidate>* candidates) {
+  const auto all = std::find_if(
+      candidates->begin(), candidates->end(), [](const Candidate& candidate) {
+        return candidate.change.kind == Kind::kAllTorqueSigns;
+      });
+  if (all == candidates->end()) return;
+  const Candidate turned{WithTurnedGravity(all->reading), all->change};
+  candidates->insert(all + 1, turned);
+}
+
 std::vector<Candidate> GravityCandidates(const LogReading& from,
                                          double magnitude) {
   std::vector<Candidate> all = {{from, {Kind::kGravity}}};
   all[0].reading.gravity.setZero();
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sign : {-1., 1.}) {
-      all.push_back({from, {Kind::kGravity}});
-      all.back().reading.gravity = sign * magnitude * Vector3d::Unit(axis);
+      all.push_back(all[0]);
+      all.back().reading.gravity[axis] = sign * magnitude;
     }
   }
   return all;

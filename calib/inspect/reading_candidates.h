@@ -32,4 +32,11 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
 std::vector<Candidate> GravityCandidates(const LogReading& from,
                                          double magnitude);
 
+// The reading with gravity the other way round.
+LogReading WithTurnedGravity(LogReading reading);
+// All torques turned round together with gravity, which was found while they
+// were not: of slow motions both signs together change next to nothing, so the
+// direction that was found is one of two until torques have their sign.
+void AddTurnedGravity(std::vector<Candidate>* candidates);
+
 }  // namespace armcal

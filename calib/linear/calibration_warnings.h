@@ -9,6 +9,9 @@
 namespace armcal {
 
 // Sentences about what the fit by itself does not show. One for each joint
+// whose inertia about its axis (with its armature) or friction came out below
+// zero by four standard deviations: a linear fit has no bounds, and torques
+// whose sign is wrong fit it as well as the right ones. One for each joint
 // whose fitted Coulomb friction changes sign over the largest width that is
 // tried (none where the widths were given): viscous friction then takes a part
 // of it, and neither is what it says. One where joints leave more than twice as

@@ -29,9 +29,10 @@ struct Wiring {
 WiringSamples Rewired(const WiringSamples& samples, const Wiring& wiring);
 
 // How well torques fit an arm that moves like this, with inertias, friction and
-// armature fitted as they can be: friction takes power, and inertias are those
-// of the file to their own size (InertialPrior, trust 1). Nothing is asked of a
-// joint where it stands still.
+// armature fitted as they can be: friction takes power, masses and moments of
+// inertia are not negative, and inertias are those of the file to their own
+// size (InertialPrior, trust 1). Nothing is asked of a joint where it stands
+// still.
 class TorqueFit {
  public:
   TorqueFit(const Robot& robot, const Motion& motion);
@@ -47,6 +48,10 @@ class TorqueFit {
   Eigen::VectorXd Parameters(const Eigen::MatrixXd& tau) const;
   Eigen::VectorXd Squares(const Eigen::VectorXd& parameters,
                           const Eigen::MatrixXd& tau) const;
+  // What is left, as Squares has it, of torques by joint terms alone that are
+  // fitted beside the bodies of the robot file as they are, or beside none.
+  Eigen::VectorXd SquaresBesideFile(const Eigen::MatrixXd& tau) const;
+  Eigen::VectorXd SquaresBesideNoBodies(const Eigen::MatrixXd& tau) const;
   // samples x n, N m or N.
   Eigen::MatrixXd Torque(const Eigen::VectorXd& parameters) const;
   // Torques that the fit takes notice of; 0 where a joint stands still.
@@ -61,13 +66,15 @@ class TorqueFit {
     double misfit = 0;           // nats
   };
   Fitted FitTo(const Eigen::MatrixXd& tau) const;
+  // Parameters that are `held` stay at zero.
+  Fitted FitTo(const Eigen::MatrixXd& tau, std::vector<bool> held) const;
   Eigen::VectorXd Solve(const Eigen::MatrixXd& tau,
                         const Eigen::VectorXd& variance,
                         const std::vector<bool>& held) const;
-  void HoldNegative(const Eigen::VectorXd& x, std::vector<bool>* held) const;
 
   std::vector<Eigen::MatrixXd> columns_, squares_;  // per joint
   Eigen::MatrixXd moves_;  // samples x n: 1 where the joint moves, else 0
+  std::vector<int> not_negative_;
   Eigen::VectorXd nominal_;
   Eigen::MatrixXd prior_;
 };

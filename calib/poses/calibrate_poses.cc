@@ -78,7 +78,8 @@ void ReportParameters(const PoseFit& fit, const std::vector<bool>& free,
   const MatrixXd J = FreeJacobian(fit, free, by_all);
   const SeenUnknowns seen(J);
   const MatrixXd covariance =
-      seen.half * ScoreCovariance(fit, rows, by_all, residuals, J * seen.half) *
+      seen.half *
+      PoseScoreCovariance(fit, rows, by_all, residuals, J * seen.half) *
       seen.half.transpose();
   Eigen::Index c = 0;
   for (int p = 0; p < geometry.size(); ++p) {

@@ -138,9 +138,9 @@ Triplets FileErrors(const PoseFit& fit, const MatrixXd& by_all) {
 }  // namespace
 
 // Priors of the instrument are no errors of poses; they have variance 1 each.
-MatrixXd ScoreCovariance(const PoseFit& fit, const std::vector<int>& rows,
-                         const MatrixXd& by_all, const VectorXd& residuals,
-                         const MatrixXd& basis) {
+MatrixXd PoseScoreCovariance(const PoseFit& fit, const std::vector<int>& rows,
+                             const MatrixXd& by_all, const VectorXd& residuals,
+                             const MatrixXd& basis) {
   const MatrixXd Q = basis.topRows(residuals.size());
   std::vector<VarianceComponent> components;
   components.emplace_back(Own(Q.rows()), Q.rows(), Q);

@@ -32,10 +32,10 @@ namespace armcal {
 //   (J'J)^-1 J'Q B Q'J (J'J)^-1
 // is the covariance of the estimate: the sandwich of Huber (1967) with what is
 // shared in one piece (Liang and Zeger 1986).
-Eigen::MatrixXd ScoreCovariance(const PoseFit& fit,
-                                const std::vector<int>& rows,
-                                const Eigen::MatrixXd& by_all,
-                                const Eigen::VectorXd& residuals,
-                                const Eigen::MatrixXd& basis);
+Eigen::MatrixXd PoseScoreCovariance(const PoseFit& fit,
+                                    const std::vector<int>& rows,
+                                    const Eigen::MatrixXd& by_all,
+                                    const Eigen::VectorXd& residuals,
+                                    const Eigen::MatrixXd& basis);
 
 }  // namespace armcal

@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 // With the factor V that a robust loss makes of the variance (VarianceFactor),
 // A = J / root V; its square is then the inverse of a covariance. In these
-// units the pull has the covariance J'Q B Q'J / V^2 (ScoreCovariance), which is
-// A'A where B = V.
+// units the pull has the covariance J'Q B Q'J / V^2 (PoseScoreCovariance),
+// which is A'A where B = V.
 PoseInformation InformByPoses(const ArmUnknowns& unknowns, const PoseFit* poses,
                               const ArmValues& at) {
   const MatrixXd none = MatrixXd::Zero(0, unknowns.size());
@@ -31,7 +31,7 @@ PoseInformation InformByPoses(const ArmUnknowns& unknowns, const PoseFit* poses,
       poses->VarianceFactor(residuals, static_cast<int>(free.size()));
   const MatrixXd J = by_all(Eigen::all, free);
   const MatrixXd Q = J * SeenUnknowns(J).half;
-  const MatrixXd B = ScoreCovariance(*poses, all, by_all, residuals, Q);
+  const MatrixXd B = PoseScoreCovariance(*poses, all, by_all, residuals, Q);
   const auto at_their_places = [&](const MatrixXd& columns) {
     MatrixXd placed = MatrixXd::Zero(columns.rows(), unknowns.size());
     placed.rightCols(columns.cols()) = columns;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,17 @@ TEST_F(LogReadingsTest, UnitsAreOfAnotherArm) {
   EXPECT_THAT(wrong[0].finding, HasSubstr("degrees"));
   EXPECT_THAT(wrong[0].finding, HasSubstr("log.csv"));
   EXPECT_TRUE(wrong[0].leads);
+}
+
+// What is further off than a base is tilted.
+TEST_F(LogReadingsTest, GravityThatIsTurnedIsOfAnotherArm) {
+  const Eigen::Vector3d right = arm_.robot.gravity;
+  arm_.robot.gravity = -right;
+  const std::vector<DataFinding> wrong = Wrong(arm_.log, true);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_THAT(wrong[0].finding, HasSubstr("gravity points 180 degrees away"));
+  arm_.robot.gravity = Eigen::AngleAxisd(.5, Eigen::Vector3d::UnitX()) * right;
+  EXPECT_TRUE(Wrong(arm_.log, true).empty());
 }
 
 TEST_F(LogReadingsTest, AScaleMayBeTheReferencesToo) {

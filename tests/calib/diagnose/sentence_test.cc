@@ -135,7 +135,8 @@ TEST(BriefReport, SaysWithinWhatItAgrees) {
   diagnosis.joints[1].torque_rms = 1;
   EXPECT_EQ(BriefReport(diagnosis),
             "The model agrees with the log to within what a refit leaves, "
-            "which is taken for noise, up to 77 % of the torque (elbow).");
+            "which is taken for noise and is up to 77 % of the torque of "
+            "elbow.");
   diagnosis.joints[1].floor_rms = 1.1;
   EXPECT_THAT(BriefReport(diagnosis), HasSubstr("explains less of the torque"))
       << "a half and more of the squares, in the joints' mean";

@@ -55,7 +55,9 @@ TEST(TransitionBound, NorAreThoseGiven) {
   Arm arm(1.);
   arm.options.transition =
       CoulombTransition{CoulombTransition::Law::kVelocity, .3};
-  EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Calibrate()).empty());
+  for (const auto& warning : CalibrationWarnings(arm.robot, arm.Calibrate())) {
+    EXPECT_THAT(warning, testing::Not(HasSubstr("largest width")));
+  }
 }
 
 // The same arm with white noise of the torque, and a log to hold out.
@@ -88,6 +90,37 @@ TEST(HeldOut, IsWarnedAboutWhereFrictionIsAnother) {
 TEST(HeldOut, IsNotOfTheSameRobot) {
   NoisyArm arm;
   EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Validate(2)).empty());
+}
+
+// A linear fit has no bounds.
+TEST(NegativeEstimates, OfTorquesThatAreNegatedAreWarnedAbout) {
+  NoisyArm arm;
+  EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Calibrate()).empty());
+  arm.logs[0].tau *= -1;
+  const auto warnings = CalibrationWarnings(arm.robot, arm.Calibrate());
+  ASSERT_EQ(warnings.size(), 2u);
+  for (int j = 0; j < 2; ++j) {
+    const std::string& name = arm.robot.links[j].joint.name;
+    EXPECT_THAT(warnings[j],
+                testing::StartsWith(name + ": inertia (with arma"));
+    EXPECT_THAT(warnings[j], HasSubstr("Coulomb friction -"));
+    EXPECT_THAT(warnings[j], HasSubstr("has the wrong sign (armcal inspect)"));
+  }
+}
+
+// Friction that grows with the speed's cube is, by a line over the speeds of a
+// log, viscous friction less something of one size: below zero at rest, and yet
+// it takes power.
+TEST(NegativeEstimates, OfFrictionOfAnotherLawAreNoSign) {
+  NoisyArm arm;
+  const Eigen::ArrayXXd qd = arm.logs[0].qd.array();
+  arm.logs[0].tau.array() += 60 * qd * qd.square();
+  arm.options.transition =
+      CoulombTransition{CoulombTransition::Law::kVelocity, .1};
+  const auto warnings = CalibrationWarnings(arm.robot, arm.Calibrate());
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_THAT(warnings[0], HasSubstr(": Coulomb friction -"));
+  EXPECT_THAT(warnings[0], HasSubstr("no sign is wrong"));
 }
 
 // One wrong sample of a position costs nothing but a sentence.
