@@ -103,8 +103,7 @@ void Diagnoser::FitBaseline(const MissingTerms& missing,
   for (const MissingTerm& term : missing.terms) {
     trust.missing_terms[term.joint_term] = term.usual;
   }
-  // How late a log's torque is, a reference tells, by as much as a derivative
-  // in time can say at once.
+  // How late a log's torque is, a reference tells to first order in time.
   if (!before->empty()) trust.timing_s = ResolvedTime(bandwidth_hz_);
   if (HaveNoiseOfPositions(*segments)) {
     trust.reversal_s = ResolvedTime(MotionBandwidth(bandwidth_hz_));

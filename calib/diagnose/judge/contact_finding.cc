@@ -53,6 +53,28 @@ double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
       ProbabilityBeyondChance(ChanceByDiscrepancy(fit, event, scale), odds));
 }
 
+bool AreOne(const Contact& a, const Contact& b) {
+  return a.log == b.log &&
+         (a.window.Contains(b.time) || b.window.Contains(a.time));
+}
+
+// Contacts of which one is at its largest while the other lasts are one touch,
+// told as the one that stands out more is.
+std::vector<Contact> Joined(const std::vector<Contact>& contacts) {
+  std::vector<Contact> joined;
+  for (const Contact& contact : contacts) {
+    const auto same = std::find_if(
+        joined.begin(), joined.end(),
+        [&](const Contact& other) { return AreOne(contact, other); });
+    if (same == joined.end()) {
+      joined.push_back(contact);
+    } else if (contact.deviations > same->deviations) {
+      *same = contact;
+    }
+  }
+  return joined;
+}
+
 }  // namespace
 
 FoundEffect FindContact(const Robot& robot, const GapFit& fit,
@@ -68,16 +90,21 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     found.probability = std::max(found.probability, probabilities[k]);
   }
   const double least = std::min(found.probability, Limits().likely);
+  const std::vector<Contact> contacts =
+      TellPulses(fit.regression(), fit.refined().effects, fit.events());
   const GapEvent* strongest = nullptr;
+  const Contact* its_contact = nullptr;
   for (size_t k = 0; k < probabilities.size(); ++k) {
     if (probabilities[k] < least) continue;
     const GapEvent& event = fit.events()[k];
     found.delta_chi2 += event.delta_chi2;
-    found.contacts.push_back(event.contact);
+    found.contacts.push_back(contacts[k]);
     if (!strongest || event.delta_chi2 > strongest->delta_chi2) {
       strongest = &event;
+      its_contact = &contacts[k];
     }
   }
+  found.contacts = Joined(found.contacts);
   found.score = strongest->score;
   if (strongest->fitted) {
     const GapCandidate& force = strongest->fitted->effect;
@@ -86,8 +113,7 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     DescribeFitted(fit, force, strongest->fitted->covariance, &found);
   } else {
     found.effect = &ContactEffect();
-    found.estimates =
-        ContactEstimates(robot, strongest->contact, &found.stddev);
+    found.estimates = ContactEstimates(robot, *its_contact, &found.stddev);
   }
   return found;
 }

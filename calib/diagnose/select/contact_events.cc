@@ -54,7 +54,7 @@ bool LastsTooLong(double seconds, const Contact& contact) {
 }
 
 // The threshold is the excess that a log without a contact passes with the
-// probability false_contacts, by the tail of its block maxima (maxima_tail.h):
+// probability false_contacts, by the tail of its block maxima (calib/numerics/maxima.h):
 // of the reference for arms of several joints, also of the log itself for one
 // joint. Neither knows of a distribution of friction, which nobody has; they
 // know how large its excess got.

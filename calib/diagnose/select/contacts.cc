@@ -287,7 +287,9 @@ std::vector<EffectEstimate> ContactEstimates(const Robot& robot,
   std::vector<EffectEstimate> estimates = {
       {"torque", EffortUnit(robot.links[j].joint.type), contact.torque[j]},
       {"time", "s", contact.time},
-      {"width", "s", (contact.window.end - contact.window.begin) / 2}};
+      {"width", "s",
+       contact.width > 0 ? contact.width
+                         : (contact.window.end - contact.window.begin) / 2}};
   *stddev = {contact.stddev[j], Limits().shortest_push, Limits().shortest_push};
   if (!contact.force) return estimates;
   const Eigen::Vector3d& f = contact.force->value;

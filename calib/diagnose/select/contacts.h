@@ -16,6 +16,7 @@ struct Contact {
   int log = 0;
   TimeRange window;       // s since the log's first row
   double time = 0;        // of its peak, s
+  double width = 0;       // s, of a pulse, from its peak to 1/e; else 0
   int joint = 0;          // from 0: that felt it most, over noise and friction
   double deviations = 0;  // that joint's, beyond friction, over the noise's
   // At the peak, as the environment acts on the joints, n entries, N m or N. At

@@ -88,6 +88,15 @@ TimeRange WindowOf(const GapCandidate& candidate) {
           time + Limits().event_reach * width};
 }
 
+bool IsKnown(const std::vector<GapEvent>& events,
+             const GapCandidate& candidate) {
+  const TimeRange window = WindowOf(candidate);
+  return std::any_of(events.begin(), events.end(), [&](const GapEvent& event) {
+    return event.contact.log == candidate.log &&
+           event.contact.window.Contains((window.begin + window.end) / 2);
+  });
+}
+
 int RowsOf(const GapRows& rows, const GapEvent& event) {
   int count = 0;
   for (int j = 0; j < rows.num_joints(); ++j) {

@@ -186,12 +186,16 @@ void GapFit::TakeOutEvent(size_t k) {
   const RefinedEffects refined =
       RefineEffects(screen(), baseline(), scale(),
                     {pool_.Fitted(selection_.chosen)[k]}, -1, data());
-  const GapCandidate& fitted = refined.effects[0];
+  // In a window that is taken out already it is told by its tails alone, from
+  // which any height follows: then only where it was chosen is believed.
+  const bool is_told = !IsKnown(events_, refined.effects[0]);
+  const GapCandidate& fitted =
+      is_told ? refined.effects[0] : candidates()[selection_.chosen[k]];
   event.contact =
       DescribeContact(baseline().robot(), rows(), ExcessGiven(regression_, {}),
                       fitted.log, WindowOf(fitted));
   event.contact.window = WindowOf(fitted);
-  if (fitted.p.head<3>().norm() < event.contact.largest_force) {
+  if (is_told && fitted.p.head<3>().norm() < event.contact.largest_force) {
     event.fitted = {fitted, refined.covariance};
     event.contact.force = {fitted.p.head<3>(),
                            refined.covariance.topLeftCorner<3, 3>()};

@@ -120,6 +120,23 @@ void ConfirmTouches(const GapRegression& regression,
   }
 }
 
+std::vector<Contact> TellPulses(const GapRegression& regression,
+                                const std::vector<GapCandidate>& effects,
+                                const std::vector<GapEvent>& events) {
+  std::vector<Contact> contacts;
+  for (const GapEvent& event : events) contacts.push_back(event.contact);
+  if (std::none_of(events.begin(), events.end(),
+                   [](const GapEvent& event) { return event.pulse; })) {
+    return contacts;
+  }
+  const std::unique_ptr<GapData> seen = SeenAgain(regression);
+  const PulseSearch search(regression, effects, *seen);
+  for (size_t k = 0; k < events.size(); ++k) {
+    if (events[k].pulse) contacts[k] = search.Fitted(contacts[k]);
+  }
+  return contacts;
+}
+
 OwnPulses OwnPulsesOf(const GapRegression& regression,
                       const std::vector<GapCandidate>& effects,
                       const std::vector<GapEvent>& events) {

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
-#include <numeric>
 
 #include "calib/diagnose/data/motion_range.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/excess.h"
-#include "calib/numerics/maxima.h"
 
 namespace armcal {
 namespace {
@@ -56,21 +53,21 @@ double ChanceOfNoise(const GapRows& rows, double deviations) {
 // degrees as there are joints, and `one_joint` the share of the strongest. Of
 // joints that are not seen there the torque is 0 within their Coulomb friction.
 GapEvent EventOf(const GapRows& rows, const Robot& robot, const PulseScan& scan,
-                 int sample, int joint) {
-  const double width = scan.widths()(sample, joint);
+                 int sample, int joint, double width) {
   const int n = rows.num_joints(), segment = rows.SegmentOf(sample);
   GapEvent event;
   Contact& contact = event.contact;
   contact.log = rows.segments()[segment].log;
   contact.time = rows.thin_time(segment, sample);
+  contact.width = width;
   contact.window = {contact.time - Limits().event_reach * width,
                     contact.time + Limits().event_reach * width};
   contact.joint = joint;
-  contact.deviations = std::abs(scan.deviations()(sample, joint));
   contact.torque.resize(n);
   contact.stddev.resize(n);
   for (int j = 0; j < n; ++j) {
     const Pulse pulse = scan.At(j, sample, width);
+    if (j == joint) contact.deviations = std::abs(pulse.deviations);
     contact.torque[j] = pulse.torque;
     contact.stddev[j] = std::isfinite(pulse.stddev)
                             ? pulse.stddev
@@ -207,24 +204,6 @@ class ModelOfPulses {
   std::vector<Autoregression> noise_;
 };
 
-// Samples of a series that are larger than those next to them, where none of
-// the three is in a window.
-std::vector<double> PeaksBeside(const GapRows& rows,
-                                const std::vector<bool>& in_window,
-                                const VectorXd& series) {
-  std::vector<double> peaks;
-  for (size_t i = 0; i < rows.segments().size(); ++i) {
-    const int s = static_cast<int>(i);
-    for (int k = rows.thin_begin(s) + 1; k + 1 < rows.thin_begin(s + 1); ++k) {
-      if (in_window[k - 1] || in_window[k] || in_window[k + 1]) continue;
-      if (series[k] > series[k - 1] && series[k] >= series[k + 1]) {
-        peaks.push_back(series[k]);
-      }
-    }
-  }
-  return peaks;
-}
-
 }  // namespace
 
 PulseSearch::PulseSearch(const GapRegression& regression,
@@ -243,62 +222,30 @@ PulseSearch::PulseSearch(const GapRegression& regression,
                                                        VectorXd::Ones(n))))}};
 }
 
-// The chances of the largest of a series in each window, by the peaks beside
-// all of them.
-std::vector<double> PulseSearch::ChancesIn(
-    const VectorXd& series, const std::vector<bool>& in_window,
-    const std::vector<std::vector<int>>& windows) const {
-  std::vector<double> sizes = PeaksBeside(rows_, in_window, series);
-  const auto beside = static_cast<std::ptrdiff_t>(sizes.size());
-  for (const std::vector<int>& window : windows) {
-    double largest = 0;
-    for (const int k : window) largest = std::max(largest, series[k]);
-    sizes.push_back(largest);
-  }
-  const std::vector<double> chances = ChancesAmongPeaks(sizes);
-  return {chances.begin() + beside, chances.end()};
-}
-
-// A pulse is asked against the peaks of the same matched filter on the same
-// joint where there is none. Heights of the peaks of a Gaussian process of one
-// narrow band have Rayleigh's law (Rice 1945), so that their squares are
-// exponential with a mean of twice the variance, whatever that is. It has to
-// stand out by its torque and by what that is worth in standard deviations:
-// what a model has wrong may be as large everywhere or as its own errors are.
-// Where it knows these worse than it says, the peaks of the latter say so; its
-// word counts as one peak more. Any of the n joints could have shown the pulse
-// (Bonferroni).
-OwnPulses PulseSearch::Beside(
-    const std::vector<std::vector<int>>& windows) const {
-  const int n = rows_.num_joints();
-  std::vector<bool> in_window(rows_.num_thin(), false);
-  for (const std::vector<int>& window : windows) {
-    for (const int k : window) in_window[k] = true;
-  }
-  OwnPulses own{std::vector<double>(windows.size(), 1), VectorXd(n)};
-  for (int j = 0; j < n; ++j) {
-    const VectorXd worth = squares_.col(j);
-    const std::vector<double> peaks = PeaksBeside(rows_, in_window, worth);
-    const double sum = std::accumulate(peaks.begin(), peaks.end(), 2.);
-    own.scale[j] = std::max(
-        1., std::sqrt(sum / (2. * static_cast<double>(peaks.size() + 1))));
-    const std::vector<double> by_worth = ChancesIn(worth, in_window, windows);
-    const std::vector<double> by_torque =
-        ChancesIn(scan_->torques().col(j).cwiseAbs2(), in_window, windows);
-    for (size_t i = 0; i < windows.size(); ++i) {
-      own.chances[i] =
-          std::min(own.chances[i], n * std::max(by_worth[i], by_torque[i]));
-    }
-  }
-  return own;
-}
-
 OwnPulses PulseSearch::BesideEvents(const std::vector<GapEvent>& events) const {
   std::vector<std::vector<int>> windows;
   for (const GapEvent& event : events) {
     windows.push_back(SamplesOf(rows_, event.contact));
   }
-  return Beside(windows);
+  return PulsesBeside(rows_, *scan_, windows);
+}
+
+GapEvent PulseSearch::EventAt(int sample, int joint) const {
+  return EventOf(rows_, robot_, *scan_, sample, joint,
+                 scan_->widths()(sample, joint));
+}
+
+Contact PulseSearch::Fitted(const Contact& found) const {
+  const Pulse best = scan_->Fitted(found.joint, SamplesOf(rows_, found),
+                                   (found.window.end - found.window.begin) / 2);
+  if (best.chi2 == 0) return found;
+  Contact fitted =
+      EventOf(rows_, robot_, *scan_, best.sample, found.joint, best.width)
+          .contact;
+  // In white noise a height has 3/2 of the variance where its width is fitted
+  // as well.
+  fitted.stddev *= std::sqrt(1.5);
+  return fitted;
 }
 
 // Noise tells it by its own standard deviation or by the log's other peaks.
@@ -320,10 +267,11 @@ GapEvent PulseSearch::LeastProbable(
     int sample;
     const double square = squares.col(j).maxCoeff(&sample);
     if (square == 0) continue;
-    GapEvent event = EventOf(rows_, robot_, *scan_, sample, j);
+    GapEvent event = EventAt(sample, j);
     std::vector<std::vector<int>> windows = found;
     windows.push_back(SamplesOf(rows_, event.contact));
-    event.chance = Chance(std::sqrt(square), Beside(windows).chances.back());
+    event.chance = Chance(std::sqrt(square),
+                          PulsesBeside(rows_, *scan_, windows).chances.back());
     if (event.chance < least.chance) least = event;
   }
   return least;
@@ -357,7 +305,7 @@ std::vector<GapEvent> PulseSearch::LargestIn(
     }
     if (sample < 0) continue;
     squares_.row(sample).maxCoeff(&joint);
-    event = EventOf(rows_, robot_, *scan_, sample, joint);
+    event = EventAt(sample, joint);
     event.chance = Chance(all[sample], in_log[i]);
   }
   return largest;

@@ -12,15 +12,6 @@
 
 namespace armcal {
 
-// What the peaks of a log's own pulses say, where there is no event.
-struct OwnPulses {
-  // How probable it is that there is one as large as each event's by itself.
-  std::vector<double> chances;
-  // Per joint: what deviations are off by, over what the model knows of it; 1
-  // where it is less.
-  Eigen::VectorXd scale;
-};
-
 // Pulses of torque in logs (PulseScan), and how probable they are without a
 // contact: as the pulses of a reference are, which nothing touched, and those
 // of the logs themselves.
@@ -35,14 +26,13 @@ class PulseSearch {
   std::vector<GapEvent> Find() const;
   // The largest in each event's window, with its chance: 1 where none is seen.
   std::vector<GapEvent> LargestIn(const std::vector<GapEvent>& events) const;
+  // A pulse again, with the time and the width that fit it best.
+  Contact Fitted(const Contact& found) const;
   // What the logs say beside these events' windows.
   OwnPulses BesideEvents(const std::vector<GapEvent>& events) const;
 
  private:
-  OwnPulses Beside(const std::vector<std::vector<int>>& windows) const;
-  std::vector<double> ChancesIn(
-      const Eigen::VectorXd& series, const std::vector<bool>& in_window,
-      const std::vector<std::vector<int>>& windows) const;
+  GapEvent EventAt(int sample, int joint) const;
   double Chance(double deviations, double in_log) const;
   GapEvent LeastProbable(const std::vector<std::vector<int>>& found) const;
 

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <numeric>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/numerics/maxima.h"
 #include "calib/numerics/posterior.h"
 
 namespace armcal {
@@ -26,6 +29,40 @@ constexpr double kLeastOfNoise = 1e-4;
 MatrixXd TimesHalf(const BaselineColumns& columns, const MatrixXd& covariance) {
   return columns.values *
          SquareRoot(covariance(columns.which, columns.which)).transpose();
+}
+
+// Samples of a series that are larger than those next to them, where none of
+// the three is in a window.
+std::vector<double> PeaksBeside(const GapRows& rows,
+                                const std::vector<bool>& in_window,
+                                const VectorXd& series) {
+  std::vector<double> peaks;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    for (int k = rows.thin_begin(s) + 1; k + 1 < rows.thin_begin(s + 1); ++k) {
+      if (in_window[k - 1] || in_window[k] || in_window[k + 1]) continue;
+      if (series[k] > series[k - 1] && series[k] >= series[k + 1]) {
+        peaks.push_back(series[k]);
+      }
+    }
+  }
+  return peaks;
+}
+
+// The chances of the largest of a series in each window, by the peaks beside
+// all of them.
+std::vector<double> ChancesIn(const GapRows& rows, const VectorXd& series,
+                              const std::vector<bool>& in_window,
+                              const std::vector<std::vector<int>>& windows) {
+  std::vector<double> sizes = PeaksBeside(rows, in_window, series);
+  const auto beside = static_cast<std::ptrdiff_t>(sizes.size());
+  for (const std::vector<int>& window : windows) {
+    double largest = 0;
+    for (const int k : window) largest = std::max(largest, series[k]);
+    sizes.push_back(largest);
+  }
+  const std::vector<double> chances = ChancesAmongPeaks(sizes);
+  return {chances.begin() + beside, chances.end()};
 }
 
 }  // namespace
@@ -153,6 +190,7 @@ Pulse PulseScan::Fit(int joint, int segment, int sample,
   pulse.torque = -g.dot(own.residual.segment(begin, end - begin)) / squared;
   pulse.stddev = std::sqrt((1 + errors / squared) / squared);
   pulse.deviations = pulse.torque / pulse.stddev;
+  pulse.chi2 = pulse.torque * pulse.torque * squared;
   return pulse;
 }
 
@@ -162,6 +200,57 @@ Pulse PulseScan::At(int joint, int sample, double width) const {
       Fit(joint, segment, sample, CourseOf(joint, rows_.step(segment), width));
   pulse.width = width;
   return pulse;
+}
+
+// By what it explains of chi squared. Scan's widths tell that there is one; its
+// height at a wrong width is wrong.
+Pulse PulseScan::Fitted(int joint, const std::vector<int>& samples,
+                        double longest) const {
+  constexpr double kStep = 1.19;  // a fourth root of 2: .4 % of a height
+  Pulse best;
+  for (const int k : samples) {
+    for (double width = Limits().shortest_push; width <= longest;
+         width *= kStep) {
+      const Pulse pulse = At(joint, k, width);
+      if (pulse.chi2 > best.chi2) best = pulse;
+    }
+  }
+  return best;
+}
+
+// A pulse is asked against the peaks of the same matched filter on the same
+// joint where there is none. Heights of the peaks of a Gaussian process of one
+// narrow band have Rayleigh's law (Rice 1945), so that their squares are
+// exponential with a mean of twice the variance, whatever that is. It has to
+// stand out by its torque and by what that is worth in standard deviations:
+// what a model has wrong may be as large everywhere or as its own errors are.
+// Where it knows these worse than it says, the peaks of the latter say so; its
+// word counts as one peak more. Any of the n joints could have shown the pulse
+// (Bonferroni).
+OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
+                       const std::vector<std::vector<int>>& windows) {
+  const int n = rows.num_joints();
+  std::vector<bool> in_window(rows.num_thin(), false);
+  for (const std::vector<int>& window : windows) {
+    for (const int k : window) in_window[k] = true;
+  }
+  OwnPulses own{std::vector<double>(windows.size(), 1), VectorXd(n)};
+  for (int j = 0; j < n; ++j) {
+    const VectorXd worth = scan.deviations().col(j).cwiseAbs2();
+    const std::vector<double> peaks = PeaksBeside(rows, in_window, worth);
+    const double sum = std::accumulate(peaks.begin(), peaks.end(), 2.);
+    own.scale[j] = std::max(
+        1., std::sqrt(sum / (2. * static_cast<double>(peaks.size() + 1))));
+    const std::vector<double> by_worth =
+        ChancesIn(rows, worth, in_window, windows);
+    const std::vector<double> by_torque =
+        ChancesIn(rows, scan.torques().col(j).cwiseAbs2(), in_window, windows);
+    for (size_t i = 0; i < windows.size(); ++i) {
+      own.chances[i] =
+          std::min(own.chances[i], n * std::max(by_worth[i], by_torque[i]));
+    }
+  }
+  return own;
 }
 
 }  // namespace armcal

@@ -16,6 +16,7 @@ struct Pulse {
   double torque = 0;  // A, as the environment acts on the joint, N m or N
   double stddev = 0;
   double deviations = 0;  // torque / stddev
+  double chi2 = 0;        // that it explains, of the noise's
 };
 
 // A matched filter for pulses in what a fitted model leaves of the torque
@@ -57,6 +58,10 @@ class PulseScan {
 
   // On a joint; of no torque and an infinite deviation where it is not seen.
   Pulse At(int joint, int sample, double width) const;
+  // The one that fits a joint best: of the times of these samples and of widths
+  // from the shortest that is looked for to `longest`, s.
+  Pulse Fitted(int joint, const std::vector<int>& samples,
+               double longest) const;
 
  private:
   // Whitened, as many rows as thinned samples; weight 0 where one is not seen.
@@ -82,5 +87,18 @@ class PulseScan {
   std::vector<Joint> joints_;
   Eigen::MatrixXd widths_, torques_, deviations_;
 };
+
+// What the peaks of a log's own pulses say, where there is no event.
+struct OwnPulses {
+  // How probable it is that there is one as large as each event's by itself.
+  std::vector<double> chances;
+  // Per joint: what deviations are off by, over what the model knows of it; 1
+  // where it is less.
+  Eigen::VectorXd scale;
+};
+
+// `windows`: thinned samples of each event.
+OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
+                       const std::vector<std::vector<int>>& windows);
 
 }  // namespace armcal

@@ -83,6 +83,15 @@ class Pulses : public testing::Test {
   std::mt19937_64 random_{1};
 };
 
+// Thinned samples within .75 s of a time.
+std::vector<int> WindowAbout(const GapRows& rows, double t) {
+  std::vector<int> window;
+  for (int k = 0; k < rows.num_thin(); ++k) {
+    if (std::abs(rows.thin_time(0, k) - t) <= .75) window.push_back(k);
+  }
+  return window;
+}
+
 // Of what the model says itself, whatever the value of the fit's column.
 TEST_F(Pulses, DeviationsAreThoseOfNoiseAndFit) {
   constexpr int kDraws = 400;
@@ -110,6 +119,18 @@ TEST_F(Pulses, TellsAPushOnOneJoint) {
   EXPECT_NEAR(pulse.torque, -2.5, 4 * pulse.stddev);
   EXPECT_LT(pulse.stddev, .5);
   EXPECT_LT(std::abs(scan.At(0, SampleAt(11), .3).deviations), 4);
+}
+
+// Of a width that no scan looks for.
+TEST_F(Pulses, AreFittedInTimeAndWidth) {
+  MatrixXd residual = Draw(.2);
+  Push(1, -4, 11, .7, &residual);
+  const PulseScan scan = Scan(residual, .2);
+  const Pulse pulse = scan.Fitted(1, WindowAbout(*rows_, 11), 1.5);
+  EXPECT_NEAR(time(pulse.sample), 11, .15);
+  EXPECT_NEAR(pulse.width, .7, .15);
+  EXPECT_NEAR(pulse.torque, -4, 4 * std::sqrt(1.5) * pulse.stddev);
+  EXPECT_LT(pulse.stddev, .4);
 }
 
 // A pulse that looks like what the fit may have wrong is not told from it.
@@ -161,6 +182,48 @@ TEST_F(Pulses, StandOutLessWhereSamplesHaveExtraVariance) {
   EXPECT_TRUE(std::isinf(pulse.stddev));
   EXPECT_EQ(scan.deviations().col(0).norm(), 0);
   EXPECT_GT(scan.deviations().col(1).norm(), 0);
+}
+
+// One of noise that the log has by itself, wherever it is looked for: no more
+// than 5 % of logs have one less probable than that. A push has, and another
+// one does not hide it.
+TEST_F(Pulses, AreAskedOfTheLogsOwnPeaks) {
+  constexpr int kDraws = 200;
+  int improbable = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const MatrixXd residual = Draw(0);
+    const PulseScan scan = Scan(residual, 0);
+    int sample;
+    scan.Largest().maxCoeff(&sample);
+    const auto window = WindowAbout(*rows_, time(sample));
+    improbable += PulsesBeside(*rows_, scan, {window}).chances[0] < .05;
+  }
+  // 10 of 200 at most, and 3 deviations of that.
+  EXPECT_LE(improbable, 10 + 9);
+  MatrixXd residual = Draw(0);
+  Push(1, 4, 5, .3, &residual);
+  Push(1, -4, 14, .3, &residual);
+  const OwnPulses own =
+      PulsesBeside(*rows_, Scan(residual, 0),
+                   {WindowAbout(*rows_, 5), WindowAbout(*rows_, 14),
+                    WindowAbout(*rows_, 9)});
+  EXPECT_LT(own.chances[0], 1e-3);
+  EXPECT_LT(own.chances[1], 1e-3);
+  EXPECT_GT(own.chances[2], .05);
+}
+
+// Errors of three times what the model says of itself; not less than it says.
+TEST_F(Pulses, OwnPeaksTellHowWellTheModelKnowsItsErrors) {
+  const MatrixXd residual = Draw(0);
+  const auto scale = [&](double times) {
+    MatrixXd other = residual;
+    other.col(0) *= times;
+    return PulsesBeside(*rows_, Scan(other, 0), {}).scale;
+  };
+  // Rayleigh's law holds for a narrow band; that of a pulse is not.
+  EXPECT_NEAR(scale(3)[0] / scale(1)[0], 3, .75);
+  EXPECT_EQ(scale(.2)[0], 1);
+  EXPECT_EQ(scale(3)[1], scale(1)[1]);
 }
 
 }  // namespace armcal::pulses_test
