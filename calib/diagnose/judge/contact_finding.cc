@@ -54,11 +54,11 @@ double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
 }
 
 bool AreOne(const Contact& a, const Contact& b) {
-  return a.log == b.log &&
-         (a.window.Contains(b.time) || b.window.Contains(a.time));
+  return a.log == b.log && a.joint == b.joint &&
+         std::abs(a.time - b.time) < Limits().shortest_push;
 }
 
-// Contacts of which one is at its largest while the other lasts are one touch,
+// Contacts on one joint whose peaks are nearer than any push is short are one,
 // told as the one that stands out more is.
 std::vector<Contact> Joined(const std::vector<Contact>& contacts) {
   std::vector<Contact> joined;
@@ -113,7 +113,10 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     DescribeFitted(fit, force, strongest->fitted->covariance, &found);
   } else {
     found.effect = &ContactEffect();
-    found.estimates = ContactEstimates(robot, *its_contact, &found.stddev);
+    const auto told = std::find_if(
+        found.contacts.begin(), found.contacts.end(),
+        [&](const Contact& contact) { return AreOne(contact, *its_contact); });
+    found.estimates = ContactEstimates(robot, *told, &found.stddev);
   }
   return found;
 }

@@ -236,9 +236,23 @@ GapEvent PulseSearch::EventAt(int sample, int joint) const {
 }
 
 Contact PulseSearch::Fitted(const Contact& found) const {
-  const Pulse best = scan_->Fitted(found.joint, SamplesOf(rows_, found),
-                                   (found.window.end - found.window.begin) / 2);
-  if (best.chi2 == 0) return found;
+  constexpr double kTwoMore = 5.99;  // chi squared of two degrees, 95 %
+  const auto samples_about = [&](double reach) {
+    Contact peak = found;
+    peak.window = {found.time - reach, found.time + reach};
+    return SamplesOf(rows_, peak);
+  };
+  const std::vector<int> own = samples_about(1e-9);
+  if (own.empty()) return found;
+  // What is fitted is this push and no flank of another: near its peak, and
+  // better by more than two more parameters are by chance.
+  const double longest = (found.window.end - found.window.begin) / 2;
+  const Pulse best = scan_->Fitted(
+      found.joint, samples_about(longest / Limits().event_reach), longest);
+  if (best.chi2 < scan_->At(found.joint, own[0], found.width).chi2 + kTwoMore ||
+      !(best.torque * found.torque[found.joint] > 0)) {
+    return found;
+  }
   Contact fitted =
       EventOf(rows_, robot_, *scan_, best.sample, found.joint, best.width)
           .contact;
