@@ -30,7 +30,8 @@ constexpr double kLeastCosine = .5;
 
 bool IsTilt(const Robot& robot, const LogReading& reading) {
   const double sizes = reading.gravity.norm() * robot.gravity.norm();
-  return reading.gravity.dot(robot.gravity) >= kLeastCosine * sizes;
+  return sizes > 0 &&
+         reading.gravity.dot(robot.gravity) >= kLeastCosine * sizes;
 }
 
 // What cannot be read at all is refused where the log is opened for what it is

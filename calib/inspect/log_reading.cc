@@ -100,7 +100,9 @@ class Reader {
 
   std::vector<Candidate> Candidates() {
     std::vector<Candidate> all = WiringCandidates(best_, Asked());
-    if (FoundGravity() != changes_.end()) AddTurnedGravity(&all);
+    if (FoundGravity() != changes_.end() && best_.gravity.norm() > 0) {
+      AddTurnedGravity(&all);
+    }
     const double magnitude =
         robot_.gravity.norm() > 0 ? robot_.gravity.norm() : 9.81;
     for (const Candidate& candidate : GravityCandidates(best_, magnitude)) {
@@ -258,6 +260,10 @@ class Reader {
     best_ = candidate.reading;
     least_ = misfit;
     held_out_ = held_out;
+    const auto gravity = FoundGravity();
+    if (gravity != changes_.end() && best_.gravity.isApprox(robot_.gravity)) {
+      changes_.erase(gravity);  // it is as the file has it
+    }
   }
 
   std::vector<ReadingChange>::iterator FoundGravity() {

@@ -27,7 +27,11 @@ BodiesOfFile::BodiesOfFile(const TorqueFit& fit, const Eigen::MatrixXd& tau) {
   const VectorXd least = (kLeastUnexplained * torque).array() + 1e-18;
   const VectorXd file = fit.SquaresBesideFile(tau) + least;
   const VectorXd none = fit.SquaresBesideNoBodies(tau) + least;
-  joints = file.cwiseQuotient(none);
+  std::vector<int> moving;
+  for (int j = 0; j < torque.size(); ++j) {
+    if (torque[j] > 0) moving.push_back(j);
+  }
+  joints = file(moving).cwiseQuotient(none(moving));
   all = file.sum() / none.sum();
   percent_left = 100 * std::sqrt(file.sum() / (torque.sum() + 1e-18));
 }

@@ -12,8 +12,8 @@ namespace armcal {
 struct BodiesOfFile {
   BodiesOfFile(const TorqueFit& fit, const Eigen::MatrixXd& tau);
 
-  // Squares beside the file's over squares beside none: of each joint, and of
-  // all of them together. Above 1 the bodies make it worse.
+  // Squares beside the file's over squares beside none: of each joint that
+  // moves, and of all of them together. Above 1 the bodies make it worse.
   Eigen::VectorXd joints;
   double all = 0;
   double percent_left = 0;  // rms over rms torque, beside the file's

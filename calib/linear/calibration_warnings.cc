@@ -168,7 +168,7 @@ std::string CauseOfNegative(const BoundedEstimate& inertia,
            of_the_model;
   }
   if (inertia.IsPositive()) {
-    return std::string("no sign is wrong, as its inertia is above; ") +
+    return std::string("no sign is wrong, as its inertia is above zero; ") +
            of_the_model;
   }
   if (!inertia.IsNegative() && !friction.IsNegative()) return of_the_model;

@@ -97,10 +97,10 @@ VectorXd SolveHeld(MatrixXd A, VectorXd b, const std::vector<bool>& held) {
 VectorXd SolveNotNegative(const MatrixXd& A, const VectorXd& b,
                           const std::vector<int>& not_negative,
                           const std::vector<bool>& held) {
-  constexpr int kRounds = 8, kMostRounds = 16;
+  constexpr int kRounds = 8;
   std::vector<bool> zero = held;
   VectorXd x;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0;; ++round) {
     x = SolveHeld(A, b, zero);
     const VectorXd slope = A * x - b;
     bool changed = false;
@@ -111,9 +111,8 @@ VectorXd SolveNotNegative(const MatrixXd& A, const VectorXd& b,
       zero[c] = !lets_go;
       changed = true;
     }
-    if (!changed) break;
+    if (!changed) return x;
   }
-  return x;
 }
 
 }  // namespace

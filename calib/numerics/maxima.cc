@@ -7,9 +7,13 @@
 namespace armcal {
 namespace {
 
-// log of n! / (k! (n - k)!)
-double LogBinomial(int n, int k) {
-  return std::lgamma(n + 1.) - std::lgamma(k + 1.) - std::lgamma(n - k + 1.);
+// log of k! for k up to n.
+std::vector<double> LogFactorials(size_t n) {
+  std::vector<double> table(n + 1);
+  for (size_t k = 0; k <= n; ++k) {
+    table[k] = std::lgamma(static_cast<double>(k) + 1);
+  }
+  return table;
 }
 
 }  // namespace
@@ -99,6 +103,7 @@ std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
   std::vector<double> chances(sizes.size(), 1);
   if (sizes.empty()) return chances;
   const double threshold = *std::min_element(sizes.begin(), sizes.end());
+  const std::vector<double> log_factorial = LogFactorials(sizes.size());
   for (size_t i = 0; i < sizes.size(); ++i) {
     double sum = 0;
     int below = -1, out = 0;  // the smallest is the threshold's
@@ -114,7 +119,8 @@ std::vector<double> ChancesAmongPeaks(const std::vector<double>& sizes) {
     double log_chance = -std::numeric_limits<double>::infinity();
     for (int k = 1; k <= out; ++k) {
       log_chance = std::max(
-          log_chance, LogBinomial(below + k, k) -
+          log_chance, log_factorial[below + k] - log_factorial[k] -
+                          log_factorial[below] -
                           below * std::log1p(k * (sizes[i] - threshold) / sum));
     }
     chances[i] = std::min(1., std::exp(log_chance + out * std::log(2.)));

@@ -26,8 +26,7 @@ std::string WhatMassesAreFar(const NonlinearCalibration& refined) {
                   Format(" (%.3g kg, in the file %.3g)", mass, file));
   }
   if (far.empty()) return "";
-  return "more than ten times the mass that the file says, or less than a "
-         "tenth, "
+  return "ten times the mass that the file says or more, or a tenth or less, "
          "was found for " +
          Enumeration(far) +
          ". If it carries no load that the file lacks, and these masses are no "

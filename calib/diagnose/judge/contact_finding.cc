@@ -86,7 +86,8 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
   std::vector<double> probabilities;
   for (size_t k = 0; k < fit.events().size(); ++k) {
     probabilities.push_back(ProbabilityOfEvent(
-        fit, fit.events()[k], found.evidence, own.chances[k], own.scale));
+        fit, fit.events()[k], found.evidence,
+        own.chances.row(static_cast<Eigen::Index>(k)).minCoeff(), own.scale));
     found.probability = std::max(found.probability, probabilities[k]);
   }
   const double least = std::min(found.probability, Limits().likely);
@@ -116,7 +117,9 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     const auto told = std::find_if(
         found.contacts.begin(), found.contacts.end(),
         [&](const Contact& contact) { return AreOne(contact, *its_contact); });
-    found.estimates = ContactEstimates(robot, *told, &found.stddev);
+    found.estimates = ContactEstimates(
+        robot, told == found.contacts.end() ? *its_contact : *told,
+        &found.stddev);
   }
   return found;
 }

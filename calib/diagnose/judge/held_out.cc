@@ -34,9 +34,17 @@ struct LogWindow {
   TimeWindow window;
 };
 
+// What the largest of so many chi squared of n degrees is below but for 1 %:
+// n + 2 sqrt(n L) + 2 L with L = ln(windows / .01) (Laurent and Massart 2000,
+// lemma 1).
+double LargestByChance(int windows, Eigen::Index n) {
+  const double L = std::log(std::max(1, windows) / .01);
+  return static_cast<double>(n) + 2 * std::sqrt(n * L) + 2 * L;
+}
+
 // The strongest window of .4 to 2 s over all joints (StrongWindows); none where
-// that has no more of chi squared than `least`. Deviations are NaN where a
-// joint rests, and count as 0.
+// that has no more of chi squared than `least` and than chance may give.
+// Deviations are NaN where a joint rests, and count as 0.
 std::optional<LogWindow> StrongestWindow(const GapRows& rows,
                                          const MatrixXd& deviations,
                                          double least) {
@@ -52,7 +60,9 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
     int searched = 0;
     for (const TimeWindow& window : StrongWindows(left.middleRows(begin, size),
                                                   t, durations, 1, &searched)) {
-      const double most = strongest ? strongest->window.strength : least;
+      const double most =
+          strongest ? strongest->window.strength
+                    : std::max(least, LargestByChance(searched, left.cols()));
       if (window.strength <= most) continue;
       strongest = {rows.segments()[i].log, window};
     }

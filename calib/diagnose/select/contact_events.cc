@@ -21,8 +21,9 @@ UsualMaximum UsualExcess(const GapRegression& regression,
   const double block = BlockTime(before);
   const std::vector<double> own = BlockMaxima(rows, block, excess.Largest());
   UsualMaximum usual{static_cast<double>(own.size()), {}};
-  if (of_itself)
+  if (of_itself) {
     usual.tails.push_back(UsualTailOf(own, Limits().fewest_blocks));
+  }
   if (!reference) return usual;
   const VectorXd& x = regression.refit();
   const FrictionExcess known = ExcessOverFriction(
@@ -54,10 +55,10 @@ bool LastsTooLong(double seconds, const Contact& contact) {
 }
 
 // The threshold is the excess that a log without a contact passes with the
-// probability false_contacts, by the tail of its block maxima (calib/numerics/maxima.h):
-// of the reference for arms of several joints, also of the log itself for one
-// joint. Neither knows of a distribution of friction, which nobody has; they
-// know how large its excess got.
+// probability false_contacts, by the tail of its block maxima
+// (calib/numerics/maxima.h): of the reference for arms of several joints, also
+// of the log itself for one joint. Neither knows of a distribution of friction,
+// which nobody has; they know how large its excess got.
 std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
                                     const std::vector<GapCandidate>& effects,
                                     const std::vector<GapEvent>& known,

@@ -141,8 +141,9 @@ OwnPulses OwnPulsesOf(const GapRegression& regression,
                       const std::vector<GapCandidate>& effects,
                       const std::vector<GapEvent>& events) {
   if (events.empty() || !regression.reference()) {
-    return {std::vector<double>(events.size(), 1),
-            Eigen::VectorXd::Ones(regression.rows().num_joints())};
+    const int n = regression.rows().num_joints();
+    const auto size = static_cast<Eigen::Index>(events.size());
+    return {Eigen::MatrixXd::Ones(size, n), Eigen::VectorXd::Ones(n)};
   }
   const std::unique_ptr<GapData> seen = SeenAgain(regression);
   return PulseSearch(regression, effects, *seen).BesideEvents(events);

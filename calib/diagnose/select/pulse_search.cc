@@ -258,18 +258,20 @@ Contact PulseSearch::Fitted(const Contact& found) const {
           .contact;
   // In white noise a height has 3/2 of the variance where its width is fitted
   // as well.
-  fitted.stddev *= std::sqrt(1.5);
+  fitted.stddev[found.joint] *= std::sqrt(1.5);
   return fitted;
 }
 
-// Noise tells it by its own standard deviation or by the log's other peaks.
+// Noise tells it by its own standard deviation or by the log's other peaks; one
+// of two tests that are asked is by chance in twice as many logs.
 double PulseSearch::Chance(double deviations, double in_log) const {
   return std::max(usual_.Chance(deviations * deviations),
-                  std::min(ChanceOfNoise(rows_, deviations), in_log));
+                  2 * std::min(ChanceOfNoise(rows_, deviations), in_log));
 }
 
 // The least probable pulse of all joints, where these windows have been found;
-// of chance 1 where none is seen.
+// of chance 1 where none is seen. What the reference has by itself is asked
+// first: where that is likely enough, the log's own peaks are not.
 GapEvent PulseSearch::LeastProbable(
     const std::vector<std::vector<int>>& found) const {
   MatrixXd squares = squares_;
@@ -280,12 +282,19 @@ GapEvent PulseSearch::LeastProbable(
   for (int j = 0; j < rows_.num_joints(); ++j) {
     int sample;
     const double square = squares.col(j).maxCoeff(&sample);
-    if (square == 0) continue;
+    if (square == 0 || usual_.Chance(square) >=
+                           std::min(least.chance, Limits().false_contacts)) {
+      continue;
+    }
     GapEvent event = EventAt(sample, j);
     std::vector<std::vector<int>> windows = found;
-    windows.push_back(SamplesOf(rows_, event.contact));
-    event.chance = Chance(std::sqrt(square),
-                          PulsesBeside(rows_, *scan_, windows).chances.back());
+    std::vector<int>& own = windows.emplace_back();
+    for (const int k : SamplesOf(rows_, event.contact)) {
+      if (squares(k, j) > 0) own.push_back(k);
+    }
+    const OwnPulses beside = PulsesBeside(rows_, *scan_, windows);
+    event.chance =
+        Chance(std::sqrt(square), beside.chances(beside.chances.rows() - 1, j));
     if (event.chance < least.chance) least = event;
   }
   return least;
@@ -308,7 +317,7 @@ std::vector<GapEvent> PulseSearch::Find() const {
 
 std::vector<GapEvent> PulseSearch::LargestIn(
     const std::vector<GapEvent>& events) const {
-  const std::vector<double> in_log = BesideEvents(events).chances;
+  const VectorXd in_log = BesideEvents(events).chances.rowwise().minCoeff();
   const VectorXd all = scan_->Largest();
   std::vector<GapEvent> largest;
   for (size_t i = 0; i < events.size(); ++i) {
@@ -320,7 +329,7 @@ std::vector<GapEvent> PulseSearch::LargestIn(
     if (sample < 0) continue;
     squares_.row(sample).maxCoeff(&joint);
     event = EventAt(sample, joint);
-    event.chance = Chance(all[sample], in_log[i]);
+    event.chance = Chance(all[sample], in_log[static_cast<Eigen::Index>(i)]);
   }
   return largest;
 }

@@ -50,19 +50,25 @@ std::vector<double> PeaksBeside(const GapRows& rows,
 }
 
 // The chances of the largest of a series in each window, by the peaks beside
-// all of them.
+// all of them; 1 where it is not seen there.
 std::vector<double> ChancesIn(const GapRows& rows, const VectorXd& series,
                               const std::vector<bool>& in_window,
                               const std::vector<std::vector<int>>& windows) {
   std::vector<double> sizes = PeaksBeside(rows, in_window, series);
-  const auto beside = static_cast<std::ptrdiff_t>(sizes.size());
+  std::vector<size_t> places;  // of each window among the sizes
   for (const std::vector<int>& window : windows) {
     double largest = 0;
     for (const int k : window) largest = std::max(largest, series[k]);
-    sizes.push_back(largest);
+    places.push_back(sizes.size());
+    if (largest > 0) sizes.push_back(largest);
   }
-  const std::vector<double> chances = ChancesAmongPeaks(sizes);
-  return {chances.begin() + beside, chances.end()};
+  const std::vector<double> peaks = ChancesAmongPeaks(sizes);
+  std::vector<double> chances(windows.size(), 1);
+  for (size_t i = 0; i < windows.size(); ++i) {
+    const size_t next = i + 1 < windows.size() ? places[i + 1] : sizes.size();
+    if (next > places[i]) chances[i] = peaks[places[i]];
+  }
+  return chances;
 }
 
 }  // namespace
@@ -234,7 +240,8 @@ OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
   for (const std::vector<int>& window : windows) {
     for (const int k : window) in_window[k] = true;
   }
-  OwnPulses own{std::vector<double>(windows.size(), 1), VectorXd(n)};
+  OwnPulses own{MatrixXd::Ones(static_cast<Eigen::Index>(windows.size()), n),
+                VectorXd(n)};
   for (int j = 0; j < n; ++j) {
     const VectorXd worth = scan.deviations().col(j).cwiseAbs2();
     const std::vector<double> peaks = PeaksBeside(rows, in_window, worth);
@@ -246,8 +253,8 @@ OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
     const std::vector<double> by_torque =
         ChancesIn(rows, scan.torques().col(j).cwiseAbs2(), in_window, windows);
     for (size_t i = 0; i < windows.size(); ++i) {
-      own.chances[i] =
-          std::min(own.chances[i], n * std::max(by_worth[i], by_torque[i]));
+      own.chances(static_cast<Eigen::Index>(i), j) =
+          std::min(1., n * std::max(by_worth[i], by_torque[i]));
     }
   }
   return own;

@@ -90,8 +90,9 @@ class PulseScan {
 
 // What the peaks of a log's own pulses say, where there is no event.
 struct OwnPulses {
-  // How probable it is that there is one as large as each event's by itself.
-  std::vector<double> chances;
+  // How probable it is that one as large as each event's on a joint is there by
+  // itself, on any joint: events x joints.
+  Eigen::MatrixXd chances;
   // Per joint: what deviations are off by, over what the model knows of it; 1
   // where it is less.
   Eigen::VectorXd scale;
