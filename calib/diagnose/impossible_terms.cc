@@ -2,15 +2,12 @@
 
 #include <string>
 
+#include "calib/diagnose/data/thresholds.h"
 #include "model/text/enumeration.h"
 #include "model/text/format.h"
 
 namespace armcal {
 namespace {
-
-// Standard deviations: one in thirty thousand by chance, and what the model
-// lacks may be as much again.
-constexpr double kBeyondDoubt = 4;
 
 bool IsOf(const FoundEffect& found, const MovedParameter& one) {
   return one.term && found.effect->joint_term == one.term;
@@ -21,6 +18,7 @@ bool IsOf(const FoundEffect& found, const MovedParameter& one) {
 std::vector<DataFinding> TellImpossibleTerms(
     const std::vector<FoundEffect>& effects,
     const std::vector<MovedParameter>& moved) {
+  const double beyond_doubt = Limits().clear_of_many;
   std::vector<DataFinding> findings;
   for (const FoundEffect& found : effects) {
     if (!found.fitted.empty() || found.effect->joint_term == JointTerm::kOffset)
@@ -29,8 +27,8 @@ std::vector<DataFinding> TellImpossibleTerms(
     bool any_above = false;
     for (const MovedParameter& one : moved) {
       if (!IsOf(found, one)) continue;
-      any_above |= one.value > kBeyondDoubt * one.stddev;
-      if (!(one.value < -kBeyondDoubt * one.stddev)) continue;
+      any_above |= one.value > beyond_doubt * one.stddev;
+      if (!(one.value < -beyond_doubt * one.stddev)) continue;
       below.push_back(one.name +
                       Format(" (%.3g +- %.2g ", one.value, one.stddev) +
                       one.unit + ")");
