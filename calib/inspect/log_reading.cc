@@ -260,9 +260,14 @@ class Reader {
     best_ = candidate.reading;
     least_ = misfit;
     held_out_ = held_out;
+    ForgetGravityOfFile();
+  }
+
+  // A change of gravity is none where another has put it back.
+  void ForgetGravityOfFile() {
     const auto gravity = FoundGravity();
     if (gravity != changes_.end() && best_.gravity.isApprox(robot_.gravity)) {
-      changes_.erase(gravity);  // it is as the file has it
+      changes_.erase(gravity);
     }
   }
 
@@ -290,15 +295,12 @@ class Reader {
       changes_.back().hint = EvidenceOf(as_is, so);
       return;
     }
-    if (turned.gravity.isApprox(robot_.gravity)) {
-      changes_.erase(before);  // it is as the file has it
-    } else {
-      before->held_out_after = held_out.residual_percent;
-      before->gain += least_ - misfit;
-    }
+    before->held_out_after = held_out.residual_percent;
+    before->gain += least_ - misfit;
     best_ = turned;
     least_ = misfit;
     held_out_ = held_out;
+    ForgetGravityOfFile();
   }
 
   // A tilt about the world's horizontal axes, by ever smaller steps.

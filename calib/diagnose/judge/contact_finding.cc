@@ -81,28 +81,27 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
                         const EffectEvidence& evidence) {
   FoundEffect found;
   found.evidence = evidence;
-  const OwnPulses own =
-      OwnPulsesOf(fit.regression(), fit.refined().effects, fit.events());
+  const ToldPulses told =
+      TellPulses(fit.regression(), fit.refined().effects, fit.events());
   std::vector<double> probabilities;
   for (size_t k = 0; k < fit.events().size(); ++k) {
     probabilities.push_back(ProbabilityOfEvent(
         fit, fit.events()[k], found.evidence,
-        own.chances.row(static_cast<Eigen::Index>(k)).minCoeff(), own.scale));
+        told.own.chances.row(static_cast<Eigen::Index>(k)).minCoeff(),
+        told.own.scale));
     found.probability = std::max(found.probability, probabilities[k]);
   }
   const double least = std::min(found.probability, Limits().likely);
-  const std::vector<Contact> contacts =
-      TellPulses(fit.regression(), fit.refined().effects, fit.events());
   const GapEvent* strongest = nullptr;
   const Contact* its_contact = nullptr;
   for (size_t k = 0; k < probabilities.size(); ++k) {
     if (probabilities[k] < least) continue;
     const GapEvent& event = fit.events()[k];
     found.delta_chi2 += event.delta_chi2;
-    found.contacts.push_back(contacts[k]);
+    found.contacts.push_back(told.contacts[k]);
     if (!strongest || event.delta_chi2 > strongest->delta_chi2) {
       strongest = &event;
-      its_contact = &contacts[k];
+      its_contact = &told.contacts[k];
     }
   }
   found.contacts = Joined(found.contacts);
@@ -114,11 +113,11 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     DescribeFitted(fit, force, strongest->fitted->covariance, &found);
   } else {
     found.effect = &ContactEffect();
-    const auto told = std::find_if(
+    const auto same = std::find_if(
         found.contacts.begin(), found.contacts.end(),
         [&](const Contact& contact) { return AreOne(contact, *its_contact); });
     found.estimates = ContactEstimates(
-        robot, told == found.contacts.end() ? *its_contact : *told,
+        robot, same == found.contacts.end() ? *its_contact : *same,
         &found.stddev);
   }
   return found;

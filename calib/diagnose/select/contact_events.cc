@@ -32,13 +32,6 @@ UsualMaximum UsualExcess(const GapRegression& regression,
   return usual;
 }
 
-bool IsKnown(const std::vector<GapEvent>& events, const Contact& contact) {
-  return std::any_of(events.begin(), events.end(), [&](const GapEvent& event) {
-    return event.contact.log == contact.log &&
-           event.contact.window.Contains(contact.time);
-  });
-}
-
 }  // namespace
 
 FrictionExcess ExcessGiven(const GapRegression& regression,
@@ -74,7 +67,7 @@ std::vector<GapEvent> ContactsGiven(const GapRegression& regression,
   for (const Contact& contact :
        FindContacts(regression.baseline().robot(), rows, excess,
                     usual.Quantile(Limits().false_contacts), search)) {
-    if (IsKnown(known, contact)) continue;
+    if (IsKnown(known, contact.log, contact.time)) continue;
     if (!at_rest && LastsTooLong(rows.time(), contact)) continue;
     events.push_back(EventBeyondFriction(rows, excess, contact));
     events.back().chance = usual.Chance(contact.deviations);

@@ -88,12 +88,9 @@ TimeRange WindowOf(const GapCandidate& candidate) {
           time + Limits().event_reach * width};
 }
 
-bool IsKnown(const std::vector<GapEvent>& events,
-             const GapCandidate& candidate) {
-  const TimeRange window = WindowOf(candidate);
+bool IsKnown(const std::vector<GapEvent>& events, int log, double time) {
   return std::any_of(events.begin(), events.end(), [&](const GapEvent& event) {
-    return event.contact.log == candidate.log &&
-           event.contact.window.Contains((window.begin + window.end) / 2);
+    return event.contact.log == log && event.contact.window.Contains(time);
   });
 }
 

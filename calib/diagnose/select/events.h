@@ -63,9 +63,8 @@ void DescribeAgain(const Robot& robot, const GapRows& rows,
 
 // Where in time a candidate with a time and a duration is.
 TimeRange WindowOf(const GapCandidate& candidate);
-// Whether its time is in the window of one of these.
-bool IsKnown(const std::vector<GapEvent>& events,
-             const GapCandidate& candidate);
+// Whether a time of a log is in the window of one of these.
+bool IsKnown(const std::vector<GapEvent>& events, int log, double time);
 
 // Rows that are not believed once the event is taken out.
 int RowsOf(const GapRows& rows, const GapEvent& event);

@@ -186,9 +186,10 @@ void GapFit::TakeOutEvent(size_t k) {
   const RefinedEffects refined =
       RefineEffects(screen(), baseline(), scale(),
                     {pool_.Fitted(selection_.chosen)[k]}, -1, data());
-  // In a window that is taken out already it is told by its tails alone, from
-  // which any height follows: then only where it was chosen is believed.
-  const bool is_told = !IsKnown(events_, refined.effects[0]);
+  // By its tails alone any force fits: then it is where it was chosen.
+  const TimeRange best = WindowOf(refined.effects[0]);
+  const bool is_told =
+      !IsKnown(events_, refined.effects[0].log, (best.begin + best.end) / 2);
   const GapCandidate& fitted =
       is_told ? refined.effects[0] : candidates()[selection_.chosen[k]];
   event.contact =

@@ -120,33 +120,24 @@ void ConfirmTouches(const GapRegression& regression,
   }
 }
 
-std::vector<Contact> TellPulses(const GapRegression& regression,
-                                const std::vector<GapCandidate>& effects,
-                                const std::vector<GapEvent>& events) {
-  std::vector<Contact> contacts;
-  for (const GapEvent& event : events) contacts.push_back(event.contact);
-  if (std::none_of(events.begin(), events.end(),
-                   [](const GapEvent& event) { return event.pulse; })) {
-    return contacts;
-  }
-  const std::unique_ptr<GapData> seen = SeenAgain(regression);
-  const PulseSearch search(regression, effects, *seen);
-  for (size_t k = 0; k < events.size(); ++k) {
-    if (events[k].pulse) contacts[k] = search.Fitted(contacts[k]);
-  }
-  return contacts;
-}
-
-OwnPulses OwnPulsesOf(const GapRegression& regression,
+ToldPulses TellPulses(const GapRegression& regression,
                       const std::vector<GapCandidate>& effects,
                       const std::vector<GapEvent>& events) {
+  ToldPulses told;
+  for (const GapEvent& event : events) told.contacts.push_back(event.contact);
   if (events.empty() || !regression.reference()) {
     const int n = regression.rows().num_joints();
     const auto size = static_cast<Eigen::Index>(events.size());
-    return {Eigen::MatrixXd::Ones(size, n), Eigen::VectorXd::Ones(n)};
+    told.own = {Eigen::MatrixXd::Ones(size, n), Eigen::VectorXd::Ones(n)};
+    return told;
   }
   const std::unique_ptr<GapData> seen = SeenAgain(regression);
-  return PulseSearch(regression, effects, *seen).BesideEvents(events);
+  const PulseSearch search(regression, effects, *seen);
+  told.own = search.BesideEvents(events);
+  for (size_t k = 0; k < events.size(); ++k) {
+    if (events[k].pulse) told.contacts[k] = search.Fitted(told.contacts[k]);
+  }
+  return told;
 }
 
 }  // namespace armcal

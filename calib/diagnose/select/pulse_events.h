@@ -33,16 +33,16 @@ void ConfirmTouches(const GapRegression& regression,
                     const std::vector<GapCandidate>& effects,
                     std::vector<GapEvent>* events);
 
-// The contacts of events, pulses with the time and width that fit them best,
-// given effects and a model that was fitted without the events' windows.
-std::vector<Contact> TellPulses(const GapRegression& regression,
-                                const std::vector<GapCandidate>& effects,
-                                const std::vector<GapEvent>& events);
-
-// What a log says of its pulses beside events (PulseSearch), given effects and
-// a model that was fitted without the events' windows: chances of 1 and scales
-// of 1 where there is no reference.
-OwnPulses OwnPulsesOf(const GapRegression& regression,
+// Events once it is known which effects there are.
+struct ToldPulses {
+  // What the log says of its pulses beside them: chances of 1 and scales of 1
+  // where there is no reference.
+  OwnPulses own;
+  // Of each, pulses with the time and width that fit them best.
+  std::vector<Contact> contacts;
+};
+// Given effects, and a model that was fitted without the events' windows.
+ToldPulses TellPulses(const GapRegression& regression,
                       const std::vector<GapCandidate>& effects,
                       const std::vector<GapEvent>& events);
 
