@@ -87,14 +87,14 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
 }
 
 // Of a log whose clock was wrong, and whose time is an estimate, no law is told
-// beyond the terms of joints that any file may lack and errors of a joint's
-// recording: where time is off by a little, any law of motion seems to fit a
-// little, and what is late on all joints is the estimate of time.
+// beyond the terms of joints that any file may lack and errors of the
+// recording, and no other clock: where time is off by a little, any law of
+// motion seems to fit a little.
 void LeaveOutLaws(std::vector<std::string>* without) {
   for (const Effect& effect : Effects()) {
-    const bool of_joint = effect.scope == Effect::Scope::kJoint &&
-                          effect.nature == Effect::Nature::kRecording;
-    if (!effect.joint_term && !of_joint) without->push_back(effect.name);
+    const bool of_recording =
+        effect.nature == Effect::Nature::kRecording && !effect.is_clock;
+    if (!effect.joint_term && !of_recording) without->push_back(effect.name);
   }
 }
 

@@ -37,7 +37,7 @@ class OwnLogs {
 
   // Whether they have an effect at this size.
   bool Have(const GapCandidate& effect) {
-    return ShareIn(baseline_, scale_, effect, baseline_.size(), data_.get())
+    return ShareIn(baseline_, scale_, effect, data_->Screen(), data_.get())
                .odds() > 0;
   }
 

@@ -241,7 +241,10 @@ MatrixXd RecordedTorque::Recorded(const SimulatedRobot& changed,
     tau = TorqueReadings(changed.sensors, track, tau);
   }
   if (changed.torque_delay != 0) {
-    tau += ChangeByDelay(tau, motion_.torque, motion_.dt, changed.torque_delay);
+    MatrixXd given = tau;
+    if (beyond_nominal_.size() > 0) given += beyond_nominal_;
+    tau +=
+        ChangeByDelay(given, motion_.torque, motion_.dt, changed.torque_delay);
   }
   return tau;
 }

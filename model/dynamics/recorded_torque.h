@@ -35,6 +35,11 @@ class RecordedTorque {
   const Eigen::MatrixXd& load() const { return load_; }
   // What its friction heats the joints with.
   const FrictionPower& friction_power() const { return friction_power_; }
+  // What the joints are known to give beyond the nominal torque, samples x n:
+  // a delay moves it as well (recording_delay.h), and nothing else sees it.
+  void SetBeyondNominal(Eigen::MatrixXd torque) {
+    beyond_nominal_ = std::move(torque);
+  }
 
   // Per joint, torque at the samples, N m or N; empty where it is nothing.
   using OfJoints = std::vector<Eigen::VectorXd>;
@@ -108,7 +113,8 @@ class RecordedTorque {
   std::vector<CoulombTransition> transitions_;
   Motion motion_;
   Eigen::MatrixXd nominal_, load_;
-  Eigen::MatrixXd coulomb_;  // states of Coulomb friction, samples x n
+  Eigen::MatrixXd beyond_nominal_;  // empty: nothing
+  Eigen::MatrixXd coulomb_;         // states of Coulomb friction, samples x n
   FrictionPower friction_power_;
   MotionTrack track_;
   std::vector<JointThermal> thermal_;  // behind track_.warmth

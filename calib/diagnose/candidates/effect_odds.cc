@@ -52,8 +52,8 @@ double ShareOfEffect::odds() const {
 // Beside an effect that moves the time of reversals, friction's own time is
 // free, which may be its joint's alone.
 ShareOfEffect ShareIn(const GapBaseline& baseline, const MotionScale& scale,
-                      const GapCandidate& effect, int columns, GapData* data) {
-  GapScreen screen = data->Screen(columns);
+                      const GapCandidate& effect, GapScreen screen,
+                      GapData* data) {
   screen.AddColumn(
       WhitenEach(data->rows(), EffectTorque(baseline, scale, {effect}, data)));
   if (effect.effect->moves_reversals) {

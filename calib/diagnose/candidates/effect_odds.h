@@ -30,9 +30,10 @@ struct ShareOfEffect {
   double odds() const;
 };
 
-// Of an effect at its size in logs of which the baseline's first `columns` are
-// free.
+// Of an effect at its size in logs. `screen` has their rows, without columns,
+// and what is known of the baseline's values besides: a GapData::Screen.
 ShareOfEffect ShareIn(const GapBaseline& baseline, const MotionScale& scale,
-                      const GapCandidate& effect, int columns, GapData* data);
+                      const GapCandidate& effect, GapScreen screen,
+                      GapData* data);
 
 }  // namespace armcal

@@ -3,11 +3,16 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "calib/diagnose/candidates/candidate_torques.h"
+#include "model/signals/delayed_signal.h"
 
 namespace armcal {
 namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // Numbers effects by their place and values, so that of several sets those laws
 // are known that are copies of one (JointLaw::copy_of).
@@ -39,6 +44,30 @@ class EffectNumbering {
   std::vector<const GapCandidate*> all_;
 };
 
+// Takes the delay of all joints' torque out of a robot, s: 0 where the torque
+// was reconstructed from the motion, whose noise it has.
+double TakeDelay(const GapSegment& segment, SimulatedRobot* robot) {
+  if (segment.reconstructed_torque) return 0;
+  return std::exchange(robot->torque_delay, 0);
+}
+
+// A delay D of what was recorded, y(t) = m(t - D), adds y(t) - y(t + D) to it.
+// This moves the recording itself, so that what it leaves is y(t + D) less the
+// model: no part of a delay is lost with what the model has wrong, as there is
+// of m(t - D) - m(t). As a column, to be scaled, it would not do: its noise is
+// that of the residual.
+void AddDelay(const GapSegment& segment, double delay,
+              RecordedTorque::OfJoints* joints) {
+  if (delay == 0) return;
+  const MatrixXd change =
+      segment.tau - Delayed(segment.tau, -delay / segment.motion.dt);
+  for (Eigen::Index j = 0; j < change.cols(); ++j) {
+    VectorXd& joint = (*joints)[j];
+    joint = joint.size() > 0 ? VectorXd(joint + change.col(j))
+                             : VectorXd(change.col(j));
+  }
+}
+
 }  // namespace
 
 // What effects with these parameters add to the torque of these logs.
@@ -62,6 +91,7 @@ std::vector<JointRows> EffectTorques(
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), log = rows.segments()[i].log;
     std::vector<SimulatedRobot> changed(sets.size());
+    std::vector<double> delays(sets.size());
     EffectNumbering numbering;
     for (size_t k = 0; k < sets.size(); ++k) {
       changed[k].robot = baseline.robot();
@@ -70,8 +100,14 @@ std::vector<JointRows> EffectTorques(
         numbering.Apply(effect, {&baseline.robot(), effect.joint, &scale},
                         &changed[k]);
       }
+      delays[k] = TakeDelay(rows.segments()[i], &changed[k]);
     }
-    AddThinned(rows, s, (*torques)[i].Changes(changed), to);
+    std::vector<RecordedTorque::OfJoints> changes =
+        (*torques)[i].Changes(changed);
+    for (size_t k = 0; k < sets.size(); ++k) {
+      AddDelay(rows.segments()[i], delays[k], &changes[k]);
+    }
+    AddThinned(rows, s, changes, to);
   }
   return thin;
 }

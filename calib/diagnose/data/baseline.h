@@ -91,6 +91,11 @@ class GapBaseline {
   // What Coulomb friction of unit size on joint j adds, to first order, where
   // it changes sign 1 s later than the recorded velocity does.
   Eigen::VectorXd LateReversals(int j, const RecordedTorque& torque) const;
+  // What joints' terms at x, mixtures of how friction changes sign and known
+  // effects give beyond the nominal torque along a motion, samples x n: all but
+  // what links give, which is slow.
+  Eigen::MatrixXd FrictionBeyond(const Eigen::VectorXd& x,
+                                 const RecordedTorque& torque) const;
   // By how much recorded torque is later than the motion, s.
   double DelayAt(const Eigen::VectorXd& x) const;
 

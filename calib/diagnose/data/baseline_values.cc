@@ -4,6 +4,7 @@
 
 namespace armcal {
 
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The robot at these values, as far as a robot file goes: discrepancy, delay
@@ -90,6 +91,28 @@ std::vector<KnownEffect> GapBaseline::KnownAt(const VectorXd& x) const {
     if (x[c] != 0) values += x[c] * LawsOfDay(columns_[c]);
   }
   return known_.At(values);
+}
+
+MatrixXd GapBaseline::FrictionBeyond(const VectorXd& x,
+                                     const RecordedTorque& torque) const {
+  MatrixXd beyond = MatrixXd::Zero(torque.motion().size(), robot_.num_joints());
+  const bool knows = !known_.parameters().empty();
+  std::vector<MatrixXd> known;
+  if (knows) known = known_.Torques(robot_, torque);
+  for (int c = 0; c < num_model_columns(); ++c) {
+    const BaselineColumn& column = columns_[c];
+    if (x[c] == 0 || column.kind == BaselineColumn::Kind::kInertial ||
+        column.kind == BaselineColumn::Kind::kTiming) {
+      continue;
+    }
+    if (column.kind == BaselineColumn::Kind::kEffect) {
+      beyond += x[c] * known[c - known_begin_];
+    } else {
+      beyond.col(column.joint) += x[c] * OwnSpread(column) *
+                                  FineColumn(column, column.joint, {}, torque);
+    }
+  }
+  return beyond;
 }
 
 double GapBaseline::DelayAt(const VectorXd& x) const {

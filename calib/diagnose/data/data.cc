@@ -105,6 +105,13 @@ MatrixXd GapData::ResidualWith(const VectorXd& x,
   return residual;
 }
 
+void GapData::MoveFrictionByDelays(const GapBaseline& baseline,
+                                   const VectorXd& x) {
+  for (RecordedTorque& torque : torques_) {
+    torque.SetBeyondNominal(baseline.FrictionBeyond(x, torque));
+  }
+}
+
 void GapData::SetNoise(std::vector<Autoregression> noise) {
   rows_->SetNoise(std::move(noise), extra_stddev_);
 }

@@ -42,6 +42,9 @@ class GapData {
       const Eigen::VectorXd& x,
       const std::vector<Eigen::VectorXd>& torque) const;
 
+  // From now on a delay moves what the baseline at x has of friction, too.
+  void MoveFrictionByDelays(const GapBaseline& baseline,
+                            const Eigen::VectorXd& x);
   // Friction near zero velocity has an extra variance beyond what the
   // baseline's columns can vary: laws differ, and encoders do not see slow
   // creep.

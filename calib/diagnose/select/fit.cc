@@ -153,9 +153,13 @@ void GapFit::Select() {
   for (int round = 0, barred = 0; round < kRounds;) {
     const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
-    const RefinedEffects refined =
-        RefineEffects(screen(), baseline(), scale(), chosen, -1, data());
-    const int hollow = FindHollow(screen(), candidates(), selection_, refined);
+    const auto fit = [this](const std::vector<GapCandidate>& effects) {
+      return RefineEffects(screen(), baseline(), scale(), effects, -1, data());
+    };
+    const RefinedEffects refined = fit(chosen);
+    const int hollow =
+        FindHollow(screen(), candidates(), selection_, refined,
+                   [&](size_t k) { return fit(AllBut(chosen, k)).delta_chi2; });
     if (hollow >= 0 && barred++ < kMostBarred) {
       pool_.Bar(selection_.chosen[hollow]);
       select();

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+
 #include "calib/diagnose/select/chosen.h"
 #include "calib/diagnose/select/form_error.h"
 
@@ -42,14 +44,15 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
 // The column of a law that bends, as of an elastic joint, is right at its size
 // and where nothing else acts: with other effects, and times a factor, it is
 // the torque of no law, and may fit all the better. Fitted as it is, that law
-// then is worth nothing; the lowest
+// then is worth nothing:
 //   delta_chi2 of all, fitted - that of the others' columns - penalty of k
-// below 0 tells it.
+// is below 0. That of another such law is, too, beside it: of several, the one
+// without which the others, fitted as they are, explain most.
 int FindHollow(const GapScreen& screen,
                const std::vector<GapCandidate>& candidates,
-               const Selection& selection, const RefinedEffects& refined) {
-  int hollow = -1;
-  double least = 0;
+               const Selection& selection, const RefinedEffects& refined,
+               const std::function<double(size_t)>& fitted_without) {
+  std::vector<int> hollow;
   for (int k = 0; k < static_cast<int>(selection.chosen.size()); ++k) {
     const GapCandidate& own = candidates[selection.chosen[k]];
     if (own.effect->larger_sizes.empty()) continue;
@@ -57,11 +60,13 @@ int FindHollow(const GapScreen& screen,
         refined.delta_chi2 -
         TotalDeltaChi2(screen, candidates, Without(selection.chosen, k)) -
         Penalty(screen, own);
-    if (score >= least) continue;
-    least = score;
-    hollow = k;
+    if (score < 0) hollow.push_back(k);
   }
-  return hollow;
+  if (hollow.size() < 2) return hollow.empty() ? -1 : hollow[0];
+  std::vector<double> without;
+  for (const int k : hollow) without.push_back(fitted_without(k));
+  return hollow[std::max_element(without.begin(), without.end()) -
+                without.begin()];
 }
 
 }  // namespace armcal

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "calib/diagnose/candidates/refinement.h"
 #include "calib/diagnose/select/pool.h"
 #include "calib/diagnose/select/regression.h"
@@ -16,9 +19,11 @@ int FindRedundant(const GapRegression& regression, const CandidatePool& pool,
 
 // The effect (its place in the selection) that was chosen for a column which
 // its law does not keep: all effects as fitted explain less than the others'
-// columns without it, and its penalty. -1: there is none.
+// columns without it, and its penalty. -1: there is none. `fitted_without`: the
+// delta_chi2 of all but the k-th, fitted as they are; asked of several such.
 int FindHollow(const GapScreen& screen,
                const std::vector<GapCandidate>& candidates,
-               const Selection& selection, const RefinedEffects& refined);
+               const Selection& selection, const RefinedEffects& refined,
+               const std::function<double(size_t)>& fitted_without);
 
 }  // namespace armcal

@@ -105,6 +105,7 @@ std::unique_ptr<GapData> GapRegression::DataOf(
   auto data = std::make_unique<GapData>(std::move(logs), baseline_,
                                         rows().bandwidth_hz());
   data->ScaleColumns(baseline_.num_model_columns(), discrepancy_);
+  if (reference_) data->MoveFrictionByDelays(baseline_, before_);
   DistrustOtherMotion(data.get());
   GiveNoise(data.get());
   return data;
@@ -154,6 +155,8 @@ void GapRegression::EstimateNoise() {
   if (reference_) {
     reference_->SetNoise(noise_.joints);
     SettleReference();
+    reference_->MoveFrictionByDelays(baseline_, before_);
+    data_->MoveFrictionByDelays(baseline_, before_);
   } else if (noise_.source != NoiseFloor::kPositions) {
     data_->SetNoise(WhiteNoise(data_->residual()));
     noise_ =
@@ -360,9 +363,22 @@ ReferenceScatter GapRegression::ScatterOf(const GapCandidate& effect) const {
   return PooledScatter(own, others);
 }
 
-double GapRegression::OddsInReference(const GapCandidate& effect) const {
+// The reference's rows with the diagnosed ones as known data of the baseline,
+// the other way round than in MakeScreen. Numbers of the reference's own could
+// make up for an effect that it does not have: what they leave of a delay is
+// hardly more than what they leave without one. The numbers that the diagnosed
+// logs have, given the effect, do not.
+double GapRegression::OddsInReference(const GapCandidate& effect,
+                                      const JointRows& all) const {
   if (!reference_) return 0;
-  return ShareIn(baseline_, scale_, effect, baseline_.size(), reference_.get())
+  JointRows target = data_->WhitenedResidual();
+  const JointRows torque = WhitenEach(data_->rows(), all);
+  for (size_t j = 0; j < target.size(); ++j) {
+    if (torque[j].size() > 0) target[j] -= torque[j];
+  }
+  GapScreen screen = reference_->Screen();
+  screen.AddKnown(data_->WhitenedColumns(), target);
+  return ShareIn(baseline_, scale_, effect, std::move(screen), reference_.get())
       .odds();
 }
 

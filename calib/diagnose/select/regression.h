@@ -75,9 +75,12 @@ class GapRegression {
   // there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
   // 2 log of the odds that the reference has the effect as well, at this size,
-  // against that it has none of it; at most 0 where what it shows is of another
-  // size, and 0 where there is no reference.
-  double OddsInReference(const GapCandidate& effect) const;
+  // against that the diagnosed logs alone have it, given what `all` effects
+  // (this one among them) give in these, per joint thinned samples; at most 0
+  // where what the reference shows is of another size, and 0 where there is no
+  // reference.
+  double OddsInReference(const GapCandidate& effect,
+                         const JointRows& all) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }

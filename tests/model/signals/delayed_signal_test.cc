@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "model/dynamics/recorded_torque.h"
 #include "model/effects/effects.h"
 #include "tests/fixtures/two_link_arm.h"
@@ -18,9 +20,24 @@ TEST(Delayed, IsWhatWasBefore) {
   const MatrixXd ramp = VectorXd::LinSpaced(11, 0, 10);
   EXPECT_NEAR(Delayed(ramp, 2.25)(5, 0), 2.75, 1e-12);
   EXPECT_NEAR(Delayed(ramp, -2.25)(5, 0), 7.25, 1e-12);
-  EXPECT_EQ(Delayed(ramp, 3)(1, 0), 0) << "before the first sample";
-  EXPECT_EQ(Delayed(ramp, -3)(9, 0), 10) << "after the last";
+  EXPECT_NEAR(Delayed(ramp, 3)(1, 0), -2, 1e-12) << "before the first sample";
+  EXPECT_NEAR(Delayed(ramp, -3)(9, 0), 12, 1e-12) << "after the last";
   EXPECT_EQ(Delayed(ramp, 0), ramp);
+  EXPECT_EQ(Delayed(ramp.topRows(1), .5)(0, 0), 0) << "of one sample";
+}
+
+// A fifth of the sampling rate, between samples, where a line through the two
+// neighbours would leave .81 of it.
+TEST(Delayed, KeepsFastSines) {
+  const auto sine = [](double at) { return std::sin(2 * M_PI * at / 5); };
+  const MatrixXd signal = VectorXd::NullaryExpr(
+      50, [&](Eigen::Index k) { return sine(static_cast<double>(k)); });
+  for (const double delay : {.5, -.5, 3.5}) {
+    const MatrixXd delayed = Delayed(signal, delay);
+    for (int k = 10; k < 40; ++k) {
+      EXPECT_NEAR(delayed(k, 0), sine(k - delay), .016) << delay << " " << k;
+    }
+  }
 }
 
 // The textbook's torque at another time is what the log of a robot holds whose

@@ -40,7 +40,7 @@ class ShareInTest : public testing::Test {
     candidate.effect = FindEffect(effect);
     candidate.joint = joint;
     candidate.p = p;
-    return ShareIn(baseline_, arm_.scale, candidate, baseline_.size(), &data);
+    return ShareIn(baseline_, arm_.scale, candidate, data.Screen(), &data);
   }
   MatrixXd Spring(double share) const {
     MatrixXd tau = Nominal();

@@ -39,11 +39,11 @@ TEST(JointAgreementTest, OneOfSeveralJointsIsNotAll) {
 class JointAgreementOnTest : public DiagnosedArm<32> {};
 
 TEST_F(JointAgreementOnTest, ADelayIsSeenGivenTheBaselinesOwn) {
-  Add("delay", -1, {.006});
+  Add("delay", -1, {.008});
   const GapDiagnosis diagnosis = Diagnose(File());
   ASSERT_FALSE(diagnosis.effects.empty());
   EXPECT_EQ(diagnosis.effects[0].effect->name, "delay");
-  ExpectEstimate(diagnosis.effects[0], "delay", .006, .1);
+  ExpectEstimate(diagnosis.effects[0], "delay", .008, .1);
 }
 
 // Of two joints, with noise, that many s too late.

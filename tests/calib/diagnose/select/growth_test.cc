@@ -120,7 +120,7 @@ class ZerosOfAnotherDayTest : public testing::Test {
       (VectorXd(6) << .15, -.2, .1, -.25, .2, -.15).finished();
 };
 
-// A spring of the diagnosed log, 20 N m/rad on the second joint.
+// A spring of 20 N m/rad on the second joint, which the diagnosed log has.
 TEST_F(ZerosOfAnotherDayTest, WhatAReferenceHasAsWellIsToldBefore) {
   constexpr double kStiffness = 20;
   GapCandidate spring;
@@ -128,11 +128,12 @@ TEST_F(ZerosOfAnotherDayTest, WhatAReferenceHasAsWellIsToldBefore) {
   spring.joint = 1;
   spring.p = Eigen::Vector2d(kStiffness, 0);
   const auto odds = [&](double in_reference) {
+    GapSegment log = Recorded(0, VectorXd::Zero(6));
+    log.tau.col(1) += kStiffness * arm_.motion.q.col(1);
     GapSegment reference = Recorded(1, VectorXd::Zero(6));
     reference.tau.col(1) += in_reference * arm_.motion.q.col(1);
-    const GapRegression regression(
-        *baseline_, kBandwidth, {Recorded(0, VectorXd::Zero(6))}, {reference});
-    return regression.OddsInReference(spring);
+    const GapRegression regression(*baseline_, kBandwidth, {log}, {reference});
+    return regression.OddsInReference(spring, regression.TorqueOf({spring}));
   };
   EXPECT_GT(odds(kStiffness), Limits().score);
   EXPECT_LT(odds(.3 * kStiffness), 0);

@@ -48,13 +48,15 @@ class FindHollowTest : public testing::Test {
     RefinedEffects refined;
     refined.delta_chi2 =
         share * TotalDeltaChi2(*screen_, candidates_, selection_.chosen);
-    return FindHollow(*screen_, candidates_, selection_, refined);
+    return FindHollow(*screen_, candidates_, selection_, refined,
+                      [this](size_t k) { return fitted_without_[k]; });
   }
 
   std::vector<Effect> effects_;
   std::vector<GapCandidate> candidates_;
   std::unique_ptr<GapScreen> screen_;
   Selection selection_;
+  double fitted_without_[2] = {0, 0};  // of one by itself, the other left out
 };
 
 TEST_F(FindHollowTest, IsNoneWhereLawsKeepWhatTheirColumnsPromise) {
@@ -64,6 +66,17 @@ TEST_F(FindHollowTest, IsNoneWhereLawsKeepWhatTheirColumnsPromise) {
 
 TEST_F(FindHollowTest, IsWhatFitsByItsColumnOnly) {
   EXPECT_EQ(HollowAt(.85), 1);
+  EXPECT_EQ(HollowAt(-1), 1);
+}
+
+// Both bend, and spoil the fit of both together: the one that is worth more by
+// itself stays, whatever its column promises.
+TEST_F(FindHollowTest, OfSeveralIsTheOneThatTheOthersDoWithout) {
+  effects_[0].larger_sizes = {10};
+  fitted_without_[0] = 900;
+  fitted_without_[1] = 500;
+  EXPECT_EQ(HollowAt(-1), 0);
+  std::swap(fitted_without_[0], fitted_without_[1]);
   EXPECT_EQ(HollowAt(-1), 1);
 }
 
