@@ -93,13 +93,16 @@ def true_value(kind, size, log):
 
 
 def run(job):
-    """One diagnosis: {named, beside, right interval or None, words}."""
+    """One diagnosis: {named, beside, right interval or None, words}; None: that log cannot have
+    this change."""
     armcal, work, name, kind, size = job
     reference, log, flags = prepared(work / "references", name)
     plant, _, effects, estimate = KINDS[kind]
     robot = {"file": flags[0].split("=")[1], "gravity": np.array([0, 0, -9.81]),
              "constants": constants(flags, log.joints)}
     joint = plant(log, size, robot)
+    if joint is None:
+        return None
     path = work / f"{name}_{kind}_{size}.csv"
     log.write(path)
     out = path.with_suffix("")
@@ -125,10 +128,13 @@ def run(job):
 
 def report(results, sizes, kind):
     """Prints a kind's table, pair by pair; sizes rise to the right. Returns its counts."""
-    counts = {"named": {s: 0 for s in sizes}, "beside": 0, "lost_when_larger": 0,
+    counts = {"logs": 0, "named": {s: 0 for s in sizes}, "beside": 0, "lost_when_larger": 0,
               "intervals": [0, 0]}
     for name in dict.fromkeys(n for n, k, _ in results if k == kind):
         row = [results[name, kind, s] for s in sizes]
+        if None in row:
+            continue
+        counts["logs"] += 1
         marks = "".join("#" if r["named"] else "." for r in row)
         counts["lost_when_larger"] += marks.count("#.")
         for size, r in zip(sizes, row):
@@ -168,7 +174,7 @@ def main():
                    for kind in flags.kinds.split(",")}
     for kind, counts in figures.items():
         named = " ".join(f"{size}:{count}" for size, count in counts["named"].items())
-        print(f"{kind:9} named of {len(flags.pairs.split(','))}: {named}; beside "
+        print(f"{kind:9} named of {counts['logs']}: {named}; beside "
               f"{counts['beside']}, lost when larger {counts['lost_when_larger']}, intervals "
               f"{counts['intervals'][0]} of {counts['intervals'][1]}")
     if flags.results:

@@ -99,23 +99,33 @@ def numbers(element, name, default):
                      else default).split(), float)
 
 
+def chain(robot, count):
+    """The joints from the base to the tip of a robot file, fixed ones as well: of its branches
+    the first that has `count` joints that move."""
+    joints = ElementTree.parse(robot).getroot().findall("joint")
+    above = {j.find("child").get("link"): j for j in joints}
+    for link in above:
+        path = []
+        while link in above:
+            path.insert(0, above[link])
+            link = above[link].find("parent").get("link")
+        if sum(j.get("type") != "fixed" for j in path) == count:
+            return path
+    raise ValueError(f"{robot}: no branch has {count} joints")
+
+
 def tool_motion(robot, q):
     """Of a robot file's chain: axes and their origins (joints x rows x 3), the tip (rows x
     3: .1 m along z of the last link) in the base, and which joints slide."""
-    root = ElementTree.parse(robot)
-    children = {j.find("parent").get("link"): j for j in root.iter("joint")}
-    link = (set(children) - {j.find("child").get("link") for j in root.iter("joint")}).pop()
     rows = q.shape[1]
     turn, at = np.tile(np.eye(3), (rows, 1, 1)), np.zeros((rows, 3))
     axes, origins, sliding = [], [], []
-    while link in children and len(axes) < len(q):
-        joint = children[link]
+    for joint in chain(robot, len(q)):
         origin = joint.find("origin")
         roll, pitch, yaw = numbers(origin, "rpy", "0 0 0")
         at = at + turn @ numbers(origin, "xyz", "0 0 0")
         for axis, angle in (((0, 0, 1), yaw), ((0, 1, 0), pitch), ((1, 0, 0), roll)):
             turn = turn @ turned(np.array(axis, float), np.array([angle]))
-        link = joint.find("child").get("link")
         if joint.get("type") == "fixed":
             continue
         axis, moved = numbers(joint.find("axis"), "xyz", "1 0 0"), q[len(axes)]
@@ -148,7 +158,10 @@ def payload_torque(log, robot, gravity):
 
 def payload(log, size, robot):
     """A point mass .1 m beyond the last joint, whose torque is `size` percent of the torque's
-    rms on the joint where it is largest (for drives of the robot's torque constants)."""
+    rms on the joint where it is largest (for drives of the robot's torque constants). None where
+    a joint has no drive: what it would need moves it."""
+    if any(scale(log, j) == 0 for j in range(log.joints)):
+        return None
     torque = payload_torque(log, robot["file"], robot["gravity"]) / robot["constants"][:, None]
     share = max(np.sqrt(np.mean(torque[j] ** 2)) / scale(log, j) for j in range(len(torque)))
     for j, change in enumerate(torque):

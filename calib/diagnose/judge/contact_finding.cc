@@ -75,6 +75,19 @@ std::vector<Contact> Joined(const std::vector<Contact>& contacts) {
   return joined;
 }
 
+// The window of a contact as far as its log goes, s.
+TimeRange WithinLog(const GapRows& rows, const Contact& contact) {
+  TimeRange log = {contact.window.end, contact.window.begin};
+  for (const GapSegment& segment : rows.segments()) {
+    if (segment.log != contact.log) continue;
+    const Motion& motion = segment.motion;
+    log.begin = std::min(log.begin, motion.time(0));
+    log.end = std::max(log.end, motion.time(motion.size() - 1));
+  }
+  return {std::max(contact.window.begin, log.begin),
+          std::min(contact.window.end, log.end)};
+}
+
 }  // namespace
 
 FoundEffect FindContact(const Robot& robot, const GapFit& fit,
@@ -105,6 +118,9 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
     }
   }
   found.contacts = Joined(found.contacts);
+  for (Contact& contact : found.contacts) {
+    contact.window = WithinLog(fit.rows(), contact);
+  }
   found.score = strongest->score;
   if (strongest->fitted) {
     const GapCandidate& force = strongest->fitted->effect;
