@@ -94,6 +94,7 @@ std::vector<long> ErrorsInMotion(const LinearCalibration& result,
   return counts;
 }
 
+// Told are those in motion, of all that the calibration leaves out.
 void AddOutliers(const Robot& robot, const std::vector<long>& errors,
                  long samples, LogCoverage* coverage) {
   constexpr double kMany = .005;  // of the samples
@@ -104,8 +105,11 @@ void AddOutliers(const Robot& robot, const std::vector<long>& errors,
     coverage->findings.push_back(
         {"outliers",
          "the torque of " + robot.links[j].joint.name + " has gross errors",
-         Format("%ld samples (%.1f %%)", errors[j], 100 * share),
-         "armcal calibrate leaves them out and lists them in outliers.csv",
+         Format("%ld samples (%.1f %%) lie apart from those around them and "
+                "from reversals; %ld stick out of a fit",
+                errors[j], 100 * share, coverage->outliers[j]),
+         "armcal calibrate leaves the latter out and lists them in "
+         "outliers.csv",
          static_cast<int>(j)});
   }
 }

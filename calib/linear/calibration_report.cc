@@ -197,6 +197,18 @@ std::string ParameterTable(const LinearCalibration& result) {
   return text + "standard deviations: " + result.covariance_method + "\n";
 }
 
+// Where samples that the fit left out make most of the squares that it leaves:
+// ", most of it in spikes (4.3 % without)".
+std::string SpikesText(const LinearCalibration& result) {
+  const auto all = result.training->moving(), kept = result.training->kept();
+  if (CountOutliers(result) == 0 ||
+      !(all.residual_rms.squaredNorm() > 2 * kept.residual_rms.squaredNorm())) {
+    return "";
+  }
+  return Format(", most of it in spikes (%.2f %% without)",
+                kept.stacked_percent);
+}
+
 }  // namespace
 
 // One line. Percentages are not finite where a log has no torque in motion.
@@ -209,7 +221,8 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
   std::string text =
       robot.name + Format(": %d model parameters, ", id.total) +
       (std::isfinite(left) ? Format("residual %.2f %% of the torque", left)
-                           : "no torque where the logs move");
+                           : "no torque where the logs move") +
+      SpikesText(result);
   if (result.validation) {
     const double percent = result.validation->moving().stacked_percent;
     text += std::isfinite(percent) ? Format(", %.2f %% held out", percent)
