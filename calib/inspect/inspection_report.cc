@@ -1,5 +1,7 @@
 #include "calib/inspect/inspection_report.h"
 
+#include <algorithm>
+
 #include "calib/inspect/robot_audit.h"
 #include "calib/inspect/robot_description.h"
 #include "calib/numerics/json_figures.h"
@@ -45,8 +47,14 @@ std::string CoverageText(const Robot& robot, const LogCoverage& coverage) {
   }
   text += Format("  %d of %d directions of the model parameters show\n",
                  coverage.rank, coverage.total);
-  for (const std::string& unseen : coverage.unseen) {
-    text += "    not seen: " + unseen + "\n";
+  constexpr size_t kShown = 3;  // a short log leaves dozens open
+  const std::vector<std::string>& unseen = coverage.unseen;
+  for (size_t k = 0; k < std::min(kShown, unseen.size()); ++k) {
+    text += "    not seen: " + unseen[k] + "\n";
+  }
+  if (unseen.size() > kShown) {
+    text += Format("    ... and %zu more (in inspect.json)\n",
+                   unseen.size() - kShown);
   }
   if (!coverage.advice.empty()) {
     text += "    to see more: " + coverage.advice + ", or armcal excite " +
