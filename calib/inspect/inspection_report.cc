@@ -38,6 +38,9 @@ std::string CoverageText(const Robot& robot, const LogCoverage& coverage) {
   text += Format(
       "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
       coverage.residual_percent, coverage.noise_source.c_str());
+  if (!coverage.too_short.empty()) {
+    text += "  " + coverage.too_short + "\n";
+  }
   for (const UnpoweredJoint& joint : coverage.unpowered) {
     const Joint& of = robot.links[joint.joint].joint;
     text += "  the torque of " + of.name +
@@ -78,6 +81,7 @@ json CoverageJson(const Robot& robot, const LogCoverage& coverage) {
           {"advice", coverage.advice},
           {"residual_percent", JsonNumber(coverage.residual_percent)},
           {"outliers", coverage.outliers},
+          {"too_short", coverage.too_short},
           {"noise_source", coverage.noise_source},
           {"stamp_wander", JsonNumber(coverage.stamp_wander)}};
 }
