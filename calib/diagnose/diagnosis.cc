@@ -272,10 +272,9 @@ GapFigures Diagnoser::FiguresOf(const HeldOut::Residuals& residuals) const {
 
 // Fits what is claimed again without what is not, so that every figure, file
 // and drawing is of what the verdict names. What nothing explains was told
-// before: what is fitted and not named is not without explanation, it has
-// several. What alone makes held-out data worse for certain is not claimed
-// either, nor what shrinks the gap little. Whether there was anything to leave
-// out.
+// before: what is fitted and not named has several explanations. Not claimed
+// either is what no arm can have, what alone makes held-out data worse for
+// certain, and what shrinks the gap little. Whether anything was left out.
 bool Diagnoser::ClaimNoMore(GapFindings* findings) {
   bool is_another = false;
   do {
@@ -285,7 +284,8 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
       result_.torque = FiguresOf(held_out_->AllResiduals());
       SetClaimedShares(*fit_, *held_out_, result_.torque, &findings->effects);
     }
-  } while (GiveUpWorst(result_.torque, result_.has_reference, findings) ||
+  } while (GiveUpImpossible(findings) ||
+           GiveUpWorst(result_.torque, result_.has_reference, findings) ||
            GiveUpWhatDoesNotHelp(result_.torque, findings));
   LowerWhatDoesNotHelp(result_.torque, &findings->effects);
   if (!is_another) return false;

@@ -31,6 +31,15 @@ bool HasDirection(const FoundEffect& found) {
          found.estimates[0].value != 0;
 }
 
+// "-0.08", "+0.018 rad", "the log has torque late by 0.02 s".
+std::string SignedSize(const Effect& effect, const EffectEstimate& size) {
+  const std::string unit = size.unit == "1" ? "" : " " + size.unit;
+  const std::string& meaning =
+      size.value > 0 ? effect.if_positive : effect.if_negative;
+  if (meaning.empty()) return Format("%+.2g", size.value) + unit;
+  return meaning + Format(" by %.2g", std::abs(size.value)) + unit;
+}
+
 }  // namespace
 
 std::string NameOf(const Effect& effect, int joint,
@@ -48,8 +57,7 @@ std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   if (!HasDirection(found)) return name;
   const EffectEstimate& size = found.estimates[0];
   if (found.effect->nature != Effect::Nature::kParameter) {
-    const std::string unit = size.unit == "1" ? "" : " " + size.unit;
-    return name + Format(" (%+.2g", size.value) + unit + ")";
+    return name + " (" + SignedSize(*found.effect, size) + ")";
   }
   // There is more of friction or inertia; a length is larger.
   const bool is_amount = found.effect->joint_term.has_value();

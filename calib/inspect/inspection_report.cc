@@ -1,5 +1,7 @@
 #include "calib/inspect/inspection_report.h"
 
+#include <algorithm>
+
 #include "calib/inspect/robot_audit.h"
 #include "calib/inspect/robot_description.h"
 #include "calib/numerics/json_figures.h"
@@ -36,6 +38,9 @@ std::string CoverageText(const Robot& robot, const LogCoverage& coverage) {
   text += Format(
       "\n  calibrated on it, the model leaves %.3g %%; noise is told from %s\n",
       coverage.residual_percent, coverage.noise_source.c_str());
+  if (!coverage.too_short.empty()) {
+    text += "  " + coverage.too_short + "\n";
+  }
   for (const UnpoweredJoint& joint : coverage.unpowered) {
     const Joint& of = robot.links[joint.joint].joint;
     text += "  the torque of " + of.name +
@@ -45,8 +50,14 @@ std::string CoverageText(const Robot& robot, const LogCoverage& coverage) {
   }
   text += Format("  %d of %d directions of the model parameters show\n",
                  coverage.rank, coverage.total);
-  for (const std::string& unseen : coverage.unseen) {
-    text += "    not seen: " + unseen + "\n";
+  constexpr size_t kShown = 3;  // a short log leaves dozens open
+  const std::vector<std::string>& unseen = coverage.unseen;
+  for (size_t k = 0; k < std::min(kShown, unseen.size()); ++k) {
+    text += "    not seen: " + unseen[k] + "\n";
+  }
+  if (unseen.size() > kShown) {
+    text += Format("    ... and %zu more (in inspect.json)\n",
+                   unseen.size() - kShown);
   }
   if (!coverage.advice.empty()) {
     text += "    to see more: " + coverage.advice + ", or armcal excite " +
@@ -70,6 +81,7 @@ json CoverageJson(const Robot& robot, const LogCoverage& coverage) {
           {"advice", coverage.advice},
           {"residual_percent", JsonNumber(coverage.residual_percent)},
           {"outliers", coverage.outliers},
+          {"too_short", coverage.too_short},
           {"noise_source", coverage.noise_source},
           {"stamp_wander", JsonNumber(coverage.stamp_wander)}};
 }

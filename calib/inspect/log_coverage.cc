@@ -13,8 +13,10 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/logs/prepared_logs.h"
 #include "calib/numerics/median.h"
+#include "model/signals/bandwidth.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -38,6 +40,24 @@ void AddAuditedTorque(const Robot& robot, double bandwidth_hz,
     coverage->findings.push_back(
         {"computed_torque", finding.finding, finding.evidence, finding.flag});
   }
+}
+
+// A diagnosis checks what it finds on parts of the log that it holds out, and
+// refuses a log that leaves it no rows at all. Both take so much motion in one
+// piece, as filters bend the ends.
+std::string TooShort(const LogSet& logs) {
+  const double bandwidth_hz = DiagnosisBandwidth(logs.time_bases());
+  const std::vector<GapSegment> segments = ReadSegments(bandwidth_hz, {}, logs);
+  const auto has_rows = [&](const LogPart& part) {
+    return GapRows(segments, bandwidth_hz, part).num_rows() > 0;
+  };
+  if (has_rows(LogPart::AnyFold())) return "";
+  const bool refused = !has_rows(LogPart());
+  return std::string("too short for armcal diagnose") +
+         (refused ? "" : " to hold some of it out") +
+         Format(": %.3g s in motion without a gap are needed at %.3g Hz",
+                GapRows::ShortestSplit(bandwidth_hz), bandwidth_hz) +
+         (refused ? "" : ", or another log as " + OptionName("validate"));
 }
 
 // Times at which joint j of the log turns round, s, ascending.
@@ -94,6 +114,7 @@ std::vector<long> ErrorsInMotion(const LinearCalibration& result,
   return counts;
 }
 
+// Told are those in motion, of all that the calibration leaves out.
 void AddOutliers(const Robot& robot, const std::vector<long>& errors,
                  long samples, LogCoverage* coverage) {
   constexpr double kMany = .005;  // of the samples
@@ -104,8 +125,11 @@ void AddOutliers(const Robot& robot, const std::vector<long>& errors,
     coverage->findings.push_back(
         {"outliers",
          "the torque of " + robot.links[j].joint.name + " has gross errors",
-         Format("%ld samples (%.1f %%)", errors[j], 100 * share),
-         "armcal calibrate leaves them out and lists them in outliers.csv",
+         Format("%ld samples (%.1f %%) lie apart from those around them and "
+                "from reversals; %ld stick out of a fit",
+                errors[j], 100 * share, coverage->outliers[j]),
+         "armcal calibrate leaves the latter out and lists them in "
+         "outliers.csv",
          static_cast<int>(j)});
   }
 }
@@ -142,6 +166,7 @@ LogCoverage CoverageOf(const Robot& robot, const LogSource& log,
     coverage.advice =
         AdviceText(robot, AdviseMotions(robot, result, linear, logs), id.total);
     AddAuditedTorque(robot, result.preparation.bandwidth_hz, logs, &coverage);
+    coverage.too_short = TooShort(logs);
   } catch (const InputError& error) {
     coverage.reason = error.what();
   }

@@ -26,6 +26,8 @@ struct LogCoverage {
   std::string noise_source;  // repeats, standstill or what the model leaves
   std::string time_base;     // samples, steps and gaps in a sentence
   double stamp_wander = 0;   // s, of stamps beside even samples
+  // What a diagnosis would lack, a sentence; empty: nothing, by its length.
+  std::string too_short;
   // What would spoil a calibration or a diagnosis: torques computed from
   // positions, more gross errors in motion than now and then.
   std::vector<InspectionFinding> findings;

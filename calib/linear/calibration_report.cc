@@ -19,7 +19,8 @@ std::string Percent(double percent) {
 }
 
 std::string PlusMinus(double value, double stddev) {
-  if (!std::isfinite(stddev)) return Format("%11.5g (not seen)", value);
+  // Any value would do as well as the one that the solver has.
+  if (!std::isfinite(stddev)) return Format("%11s (not seen)  ", "-");
   return Format("%11.5g +- %-9.3g", value, stddev);
 }
 
@@ -98,6 +99,23 @@ std::string ResidualTable(const Robot& robot, const LinearCalibration& result) {
   return text + "\n";
 }
 
+// The first of them; a short log leaves dozens open, in long sums.
+std::string DirectionsText(
+    const std::string& what,
+    const std::vector<UnidentifiableDirection>& directions) {
+  constexpr size_t kShown = 3;
+  const std::string indent(11, ' ');
+  std::string text;
+  for (size_t k = 0; k < std::min(kShown, directions.size()); ++k) {
+    text += indent + what + directions[k].text + "\n";
+  }
+  if (directions.size() > kShown) {
+    text += indent + Format("... and %zu more (in calibration.json)\n",
+                            directions.size() - kShown);
+  }
+  return text;
+}
+
 // Directions of single blocks are named only where the whole sees everything:
 // else they would be read as further faults beside those that matter.
 std::string RankText(const Robot& robot, const LinearCalibration& result) {
@@ -109,9 +127,7 @@ std::string RankText(const Robot& robot, const LinearCalibration& result) {
   }
   std::string text = Format("\nrank       %d of %d, blocks %s\n", id.batch_rank,
                             id.total, blocks.c_str());
-  for (const auto& d : id.directions) {
-    text += "           not identifiable: " + d.text + "\n";
-  }
+  text += DirectionsText("not identifiable: ", id.directions);
   if (!id.advice.empty()) {
     text +=
         "           to see more: " + AdviceText(robot, id.advice, id.total) +
@@ -197,6 +213,18 @@ std::string ParameterTable(const LinearCalibration& result) {
   return text + "standard deviations: " + result.covariance_method + "\n";
 }
 
+// Where samples that the fit left out make most of the squares that it leaves:
+// ", most of it in spikes (4.3 % without)".
+std::string SpikesText(const LinearCalibration& result) {
+  const auto all = result.training->moving(), kept = result.training->kept();
+  if (CountOutliers(result) == 0 ||
+      !(all.residual_rms.squaredNorm() > 2 * kept.residual_rms.squaredNorm())) {
+    return "";
+  }
+  return Format(", most of it in spikes (%.2f %% without)",
+                kept.stacked_percent);
+}
+
 }  // namespace
 
 // One line. Percentages are not finite where a log has no torque in motion.
@@ -209,7 +237,8 @@ std::string BriefReport(const Robot& robot, const LinearCalibration& result) {
   std::string text =
       robot.name + Format(": %d model parameters, ", id.total) +
       (std::isfinite(left) ? Format("residual %.2f %% of the torque", left)
-                           : "no torque where the logs move");
+                           : "no torque where the logs move") +
+      SpikesText(result);
   if (result.validation) {
     const double percent = result.validation->moving().stacked_percent;
     text += std::isfinite(percent) ? Format(", %.2f %% held out", percent)

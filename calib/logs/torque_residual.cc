@@ -32,11 +32,11 @@ MatrixXd PredictTorques(const Trajectory& trajectory, const VectorXd& x,
   return predicted;
 }
 
-FilteredTorques FilterTorques(const Trajectory& trajectory, const VectorXd& x,
-                              double bandwidth_hz,
-                              const MotionRegressor& regressor) {
-  MatrixXd predicted = PredictTorques(trajectory, x, regressor);
-  MatrixXd recorded = trajectory.tau_recorded;
+namespace {
+
+// `recorded`: of all samples of the trajectory.
+FilteredTorques Filtered(const Trajectory& trajectory, double bandwidth_hz,
+                         MatrixXd recorded, MatrixXd predicted) {
   if (bandwidth_hz > 0) {
     predicted = ZeroPhaseLowPass(predicted, 1 / trajectory.dt, bandwidth_hz);
     recorded = ZeroPhaseLowPass(recorded, 1 / trajectory.dt, bandwidth_hz);
@@ -45,8 +45,17 @@ FilteredTorques FilterTorques(const Trajectory& trajectory, const VectorXd& x,
   return {recorded(core, Eigen::all), predicted(core, Eigen::all)};
 }
 
+}  // namespace
+
+FilteredTorques FilterTorques(const Trajectory& trajectory, const VectorXd& x,
+                              double bandwidth_hz,
+                              const MotionRegressor& regressor) {
+  return Filtered(trajectory, bandwidth_hz, trajectory.tau_recorded,
+                  PredictTorques(trajectory, x, regressor));
+}
+
 TorqueResidual::TorqueResidual(int num_joints) {
-  for (Sums* sums : {&moving_, &whole_}) {
+  for (Sums* sums : {&moving_, &whole_, &kept_}) {
     sums->torque = sums->residual = Eigen::ArrayXd::Zero(num_joints);
   }
 }
@@ -54,20 +63,27 @@ TorqueResidual::TorqueResidual(int num_joints) {
 void TorqueResidual::Add(const Trajectory& trajectory, const VectorXd& x,
                          double bandwidth_hz,
                          const MotionRegressor& regressor) {
-  const FilteredTorques torques =
-      FilterTorques(trajectory, x, bandwidth_hz, regressor);
+  const MatrixXd predicted = PredictTorques(trajectory, x, regressor);
+  const FilteredTorques recorded =
+      Filtered(trajectory, bandwidth_hz, trajectory.tau_recorded, predicted);
+  const FilteredTorques kept =
+      trajectory.tau == trajectory.tau_recorded
+          ? recorded
+          : Filtered(trajectory, bandwidth_hz, trajectory.tau, predicted);
   for (int k = trajectory.core_begin; k < trajectory.core_end; ++k) {
     const int row = k - trajectory.core_begin;
-    const Eigen::ArrayXd tau = torques.recorded.row(row).transpose();
-    const Eigen::ArrayXd r =
-        tau - torques.predicted.row(row).transpose().array();
-    for (Sums* sums : {&moving_, &whole_}) {
-      if (sums == &moving_ && trajectory.standstill[k]) continue;
-      sums->torque += tau.square();
-      sums->residual += r.square();
-      sums->count += 1;
-    }
+    whole_.Add(recorded, row);
+    if (trajectory.standstill[k]) continue;
+    moving_.Add(recorded, row);
+    kept_.Add(kept, row);
   }
+}
+
+void TorqueResidual::Sums::Add(const FilteredTorques& torques, int row) {
+  const Eigen::ArrayXd tau = torques.recorded.row(row).transpose();
+  torque += tau.square();
+  residual += (tau - torques.predicted.row(row).transpose().array()).square();
+  count += 1;
 }
 
 double TorqueResidual::excluded_share() const {

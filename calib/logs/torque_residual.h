@@ -29,7 +29,8 @@ FilteredTorques FilterTorques(const Trajectory& trajectory,
 // How far predicted torques are from recorded ones, over the samples of one or
 // several logs: both low-passed at the bandwidth (order 4, zero phase). All
 // vectors have an entry per joint; a percentage is 100 |tau - tau_hat| / |tau|
-// in 2-norm, NaN where the torque is zero. Torque outliers count like the rest.
+// in 2-norm, NaN where the torque is zero. Torque outliers count like the rest
+// in all but `kept`.
 class TorqueResidual {
  public:
   struct Figures {
@@ -48,18 +49,23 @@ class TorqueResidual {
   // Without standstill, and of all samples.
   Figures moving() const { return MakeFigures(moving_); }
   Figures whole() const { return MakeFigures(whole_); }
+  // As `moving`, of the torque that a fit takes: with what stands for samples
+  // that it leaves out, which is its own prediction of them.
+  Figures kept() const { return MakeFigures(kept_); }
   // The share of samples that standstill excludes.
   double excluded_share() const;
   long samples() const { return static_cast<long>(whole_.count); }
 
  private:
   struct Sums {
+    void Add(const FilteredTorques& torques, int row);
+
     Eigen::ArrayXd torque, residual;
     double count = 0;
   };
   static Figures MakeFigures(const Sums& sums);
 
-  Sums moving_, whole_;
+  Sums moving_, whole_, kept_;
 };
 
 // Of parameters `x` over all logs, in one pass that `progress` knows as

@@ -134,6 +134,10 @@ struct Effect {
   std::string if_joints_disagree;
   // Of all joints: the effect that looks so where each joint has it.
   std::string if_of_each_joint;
+  // Where the sign of its first estimate, which may have either, does not speak
+  // for itself: what it says where positive and where negative, clauses that
+  // " by 3 mm" goes on with. Empty: the estimate is told with its sign.
+  std::string if_positive, if_negative;
   // Of all joints: whether it moves the time at which friction changes sign, as
   // each joint's own friction may by itself.
   bool moves_reversals = false;

@@ -22,9 +22,15 @@ void Lower(FoundEffect* found) {
   }
 }
 
+// What held-out data show as well is something, which has another name.
+void GiveUp(std::vector<FoundEffect>::iterator found, GapFindings* findings) {
+  findings->without_name |= IsSeenAgain(*found);
+  findings->unnamed.insert(findings->unnamed.begin(), *found);
+  findings->effects.erase(found);
+}
+
 // Gives up the one that removes least of the fitted effects that `may_go`.
-// Whether there was one. What held-out data show as well is something, which
-// has another name.
+// Whether there was one.
 template <typename MayGo>
 bool GiveUpLeast(const MayGo& may_go, GapFindings* findings) {
   std::vector<FoundEffect>& effects = findings->effects;
@@ -37,9 +43,7 @@ bool GiveUpLeast(const MayGo& may_go, GapFindings* findings) {
     }
   }
   if (worst == effects.end()) return false;
-  findings->without_name |= IsSeenAgain(*worst);
-  findings->unnamed.insert(findings->unnamed.begin(), *worst);
-  effects.erase(worst);
+  GiveUp(worst, findings);
   return true;
 }
 
@@ -58,6 +62,21 @@ bool GiveUpWorst(const GapFigures& torque, bool since_reference,
   };
   return GiveUpLeast(of(false), findings) ||
          (since_reference && GiveUpLeast(of(true), findings));
+}
+
+// An effect is fitted beside others first, which may leave the fit again; what
+// it is then is known only now. That no real arm has it says nothing against
+// there being something.
+bool GiveUpImpossible(GapFindings* findings) {
+  std::vector<FoundEffect>& effects = findings->effects;
+  const auto found =
+      std::find_if(effects.begin(), effects.end(), [](const FoundEffect& one) {
+        return !one.fitted.empty() && !one.is_possible;
+      });
+  if (found == effects.end()) return false;
+  GiveUp(found, findings);
+  Lower(&findings->unnamed.front());
+  return true;
 }
 
 // An effect that removes nothing of the held-out gap, or makes it larger, where

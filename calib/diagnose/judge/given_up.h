@@ -25,6 +25,11 @@ namespace armcal {
 bool GiveUpWorst(const GapFigures& torque, bool since_reference,
                  GapFindings* findings);
 
+// Gives up the first fitted effect whose estimates no real arm can have
+// (Effect::plausible) now that it is fitted beside what is claimed alone: it is
+// at most as likely as not. Whether there was one.
+bool GiveUpImpossible(GapFindings* findings);
+
 // What leaves no less of held-out data, though it would (EffectGain::IsNone),
 // where a refit leaves more than the noise of them, is not seen there: it is at
 // most as likely as not. (Where a refit leaves the noise, they cannot tell.)

@@ -63,12 +63,34 @@ struct SpeedLine {
 bool IsALimit(double share) { return share > .5 && share < 1.5; }
 bool MayBeALimit(double share) { return share > .1 && share < 3; }
 
-bool HasShareOfALimit(const EffectSite&,
-                      const std::vector<EffectEstimate>& estimates) {
-  const auto share = std::find_if(
-      estimates.begin(), estimates.end(),
-      [](const EffectEstimate& one) { return one.name == "share"; });
-  return MayBeALimit(share->value);
+double ValueOf(const std::vector<EffectEstimate>& estimates,
+               const std::string& name) {
+  return std::find_if(
+             estimates.begin(), estimates.end(),
+             [&](const EffectEstimate& one) { return one.name == name; })
+      ->value;
+}
+
+// A limit that no recorded torque comes near does not show, at the largest
+// speed either, at which it is least. The corner begins 3 of its widths below:
+// there SoftPlus is 1/20 of a width. That recorded torques exceed it says
+// nothing against one, however many do: what is limited is the torque given,
+// and a loop whose motor gives too little asks for ever more.
+bool IsReached(const EffectSite& site,
+               const std::vector<EffectEstimate>& estimates) {
+  constexpr double kCorner = 3;
+  const MotionScale& scale = *site.scale;
+  if (scale.top_torque.size() == 0 || scale.top_speed.size() == 0) return true;
+  const double least =
+      ValueOf(estimates, "limit") -
+      ValueOf(estimates, "limit_slope") * scale.top_speed[site.joint];
+  const double begin = 1 - kCorner * ValueOf(estimates, "knee");
+  return begin * least <= scale.top_torque[site.joint];
+}
+
+bool IsOfALimit(const EffectSite& site,
+                const std::vector<EffectEstimate>& estimates) {
+  return MayBeALimit(ValueOf(estimates, "share")) && IsReached(site, estimates);
 }
 
 // A rounded corner has no field anywhere.
@@ -135,7 +157,7 @@ Effect TorqueSaturation() {
         {"share", "1", p[0]},
         {"knee", "1", p[2]}};
   };
-  effect.plausible = HasShareOfALimit;
+  effect.plausible = IsOfALimit;
   effect.set_drive = SetLimit;
   effect.proportional = false;
   effect.numbers = [](const EffectSite& site, const Eigen::VectorXd& p) {

@@ -29,6 +29,8 @@ Effect Delay() {
       "friction that lags at reversals (presliding) or play of some joints "
       "(backlash)";
   effect.if_of_each_joint = "presliding";
+  effect.if_positive = "motors give the commanded torque late";
+  effect.if_negative = "the log has torque late";
   effect.moves_reversals = true;
   effect.experiment = "fast motion of small amplitude";
   return effect;

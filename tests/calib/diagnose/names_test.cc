@@ -25,14 +25,20 @@ TEST(ChangeOf, TellsMoreOrLessOfNumbersThatAnyRobotHas) {
             "smaller link inertia on shoulder");
 }
 
-// Less of an offset would be one nearer to 0, and less delay one that is
-// shorter: their signs are told as such.
+// Less of an offset would be one nearer to 0: its sign is told as such.
 TEST(ChangeOf, TellsOtherSignsWithTheSize) {
   EXPECT_EQ(Told("torque_gain", 1, "1", -.0799),
             "torque gain on elbow (-0.08)");
   EXPECT_EQ(Told("encoder_offset", 1, "rad", .0175),
             "encoder offset on elbow (+0.018 rad)");
-  EXPECT_EQ(Told("delay", -1, "s", -.002), "delay (-0.002 s)");
+}
+
+// Which of two signals is late, no sign says.
+TEST(ChangeOf, TellsInWordsWhichWayADelayGoes) {
+  EXPECT_EQ(Told("delay", -1, "s", -.02),
+            "delay (the log has torque late by 0.02 s)");
+  EXPECT_EQ(Told("delay", -1, "s", .0021),
+            "delay (motors give the commanded torque late by 0.0021 s)");
 }
 
 // A body was added or taken off where its mass is known to that much; joints

@@ -201,6 +201,9 @@ TEST_F(InspectionTest, GrossErrorsAreNamedWithTheirJoint) {
   ASSERT_EQ(coverage.findings.size(), 1u);
   EXPECT_EQ(coverage.findings[0].finding, "outliers");
   EXPECT_EQ(coverage.findings[0].joint, 2);
+  // Of all that calibrate leaves out.
+  const std::string all = std::to_string(coverage.outliers[2]) + " stick out";
+  EXPECT_NE(coverage.findings[0].evidence.find(all), std::string::npos);
 }
 
 // A model whose friction turns over a little too early or late leaves the same.

@@ -72,6 +72,22 @@ TEST_F(Residual, StandstillIsLeftOutOfMovingOnly) {
   EXPECT_NEAR(residual.excluded_share(), 100 / 401., 1e-12);
 }
 
+// What stands for samples that a fit leaves out is its own prediction; the
+// recorded ones count in all other figures.
+TEST_F(Residual, SamplesLeftOutAreNotKept) {
+  Trajectory t = MakeTrajectory(log_);
+  t.tau.col(0).array() += .3;
+  t.tau_recorded = t.tau;
+  t.tau_recorded(200, 0) += 1000;
+  t.tau(200, 0) -= .3;
+  const TorqueResidual residual = Evaluate(t);
+  EXPECT_NEAR(residual.kept().residual_rms[0], .3 * std::sqrt(400 / 401.),
+              1e-12);
+  EXPECT_NEAR(residual.kept().torque_rms[0], ColumnRms(t.tau)[0], 1e-12);
+  EXPECT_NEAR(residual.moving().residual_rms[0],
+              std::sqrt((400 * .09 + 1000.3 * 1000.3) / 401.), 1e-9);
+}
+
 TEST_F(Residual, CountsTheCoreOnly) {
   Trajectory t = MakeTrajectory(log_);
   t.core_begin = 50;

@@ -70,6 +70,39 @@ TEST(TorqueSaturation, IsALimitOfADriveByItsShare) {
   EXPECT_FALSE(is_plausible(5));
 }
 
+// Whether a limit, N m at usual speed, is one of a joint that asks for up to 50
+// N m, 40 as a rule, at up to 2 rad/s.
+bool IsPlausible(double limit, double knee, double fall) {
+  Robot robot;
+  robot.links.resize(1);
+  MotionScale scale;
+  scale.torque = Eigen::VectorXd::Constant(1, 40);
+  scale.top_torque = Eigen::VectorXd::Constant(1, 50);
+  scale.speed = Eigen::VectorXd::Constant(1, 1);
+  scale.top_speed = Eigen::VectorXd::Constant(1, 2);
+  const EffectSite site = {&robot, 0, &scale};
+  const Effect& effect = *FindEffect("torque_saturation");
+  return effect.plausible(
+      site, EstimatesOf(effect, site, Eigen::Vector4d(1, limit, knee, fall)));
+}
+
+// A corner of .08 spans a quarter of the limit, and is felt by 50 N m below 55,
+// not below 90; one of .02 is not. A limit that falls is at 45 N m where the
+// joint is fastest.
+TEST(TorqueSaturation, IsNoneWhereItIsNotReached) {
+  EXPECT_TRUE(IsPlausible(55, .08, 0));
+  EXPECT_FALSE(IsPlausible(90, .08, 0));
+  EXPECT_FALSE(IsPlausible(55, .02, 0));
+  EXPECT_TRUE(IsPlausible(90, .02, .5));
+  EXPECT_FALSE(IsPlausible(200, .02, .5));
+}
+
+// A loop that winds up asks for more than its limit most of the time: that of a
+// simulated arm, 82 N m as a rule where 64 are to be had.
+TEST(TorqueSaturation, MayBeExceededByMostOfWhatIsAskedFor) {
+  EXPECT_TRUE(IsPlausible(30, .05, 0));
+}
+
 TEST(TorqueSaturation, OfNoTorqueHasSomeLimit) {
   for (const double limit : Limits(0, 0)) EXPECT_GT(limit, 0);
 }

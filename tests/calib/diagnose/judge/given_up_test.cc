@@ -74,6 +74,25 @@ TEST(GiveUpWorst, TakesWithoutAReferenceWhatNothingSpeaksFor) {
   EXPECT_TRUE(GiveUpWorst(Shrinking(-60, -2), false, &findings));
 }
 
+// Fitted beside others it was possible; those that are claimed alone leave it
+// to be what no arm has.
+TEST(GiveUpImpossible, TakesWhatIsOnlyNowImpossible) {
+  GapFindings findings;
+  findings.effects = {Found("spring", 1, 9), Found("torque_saturation", 1, 8)};
+  findings.effects[0].fitted = {0};
+  findings.effects[1].fitted = {1};
+  EXPECT_FALSE(GiveUpImpossible(&findings));
+  findings.effects[1].is_possible = false;
+  findings.effects[1].evidence.confirmation = {50, 40};
+  findings.effects[1].probability = .86;
+  ASSERT_TRUE(GiveUpImpossible(&findings));
+  EXPECT_THAT(Names(findings.effects), ElementsAre("spring@2"));
+  EXPECT_THAT(Names(findings.unnamed), ElementsAre("torque_saturation@2"));
+  EXPECT_LE(findings.unnamed[0].probability, .5);
+  EXPECT_TRUE(findings.without_name);  // held-out data show something
+  EXPECT_FALSE(GiveUpImpossible(&findings));
+}
+
 // A name for what left-out data do not show is at most as likely as not, and
 // not told as one.
 TEST(GiveUpWhatDoesNotHelp, WhereThereIsSomethingToRemove) {
