@@ -87,14 +87,19 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
 }
 
 // Of a log whose clock was wrong, and whose time is an estimate, no law is told
-// beyond the terms of joints that any file may lack and errors of the
-// recording, and no other clock: where time is off by a little, any law of
-// motion seems to fit a little.
+// beyond the terms of joints that any file may lack, what a day brings (a load,
+// another mounting, warm joints), and errors of the recording but for another
+// clock: where time is off by a little, any law of motion seems to fit a
+// little. Without loads a torque sensor's gain would stand for one.
 void LeaveOutLaws(std::vector<std::string>* without) {
   for (const Effect& effect : Effects()) {
     const bool of_recording =
         effect.nature == Effect::Nature::kRecording && !effect.is_clock;
-    if (!effect.joint_term && !of_recording) without->push_back(effect.name);
+    const bool of_day =
+        effect.nature == Effect::Nature::kDay && !SwingsInTime(effect);
+    if (!effect.joint_term && !of_recording && !of_day) {
+      without->push_back(effect.name);
+    }
   }
 }
 

@@ -36,7 +36,7 @@ std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
     } else {
       finding.flag =
           "what follows is of the time that the joints tell, and tells no law "
-          "beyond joint terms and errors of the recording";
+          "beyond joint terms, loads and errors of the recording";
       reading->sample_times[source.name] =
           std::make_shared<const Eigen::VectorXd>(std::move(clock.t));
     }

@@ -92,6 +92,11 @@ def true_value(kind, size, log):
             "payload": getattr(log, "planted", None)}.get(kind)
 
 
+def joints_of(claim):
+    """Those that a claim is of, from 1: of contacts the ones that felt them."""
+    return {claim["joint_index"], *(c["joint_index"] for c in claim.get("contacts", []))}
+
+
 def run(job):
     """One diagnosis: {named, beside, right interval or None, words}; None: that log cannot have
     this change."""
@@ -115,8 +120,8 @@ def run(job):
         return {"named": False, "beside": 0, "interval": None,
                 "words": (done.stderr.strip().splitlines() or ["no answer"])[-1]}
     found = json.loads((out / "diagnosis.json").read_text())
-    right = [c for c in claims(found) if c["effect"] in effects
-             and (not joint or c["joint_index"] == joint)]
+    right = [c for c in claims(found) if c["effect"] in effects and
+             (not joint or joint in joints_of(c))]
     truth, interval = true_value(kind, size, log), None
     for entry in right[:1]:
         for e in entry["estimates"]:
