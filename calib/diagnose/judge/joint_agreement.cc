@@ -133,17 +133,13 @@ JointAgreement JointAgreementOn(const GapFit& fit, size_t k) {
   double all_told = 0;
   for (const Told& one : told) all_told += one.information.trace();
   JointAgreement agreement;
-  const bool since_reference = fit.regression().reference() != nullptr;
   int tell = 0;
   MatrixXd all = MatrixXd::Zero(size, size);
   VectorXd wanted = VectorXd::Zero(size);
   for (int j = 0; j < static_cast<int>(told.size()); ++j) {
     const auto& [information, further] = told[j];
     const bool tells_none = fit.screen().num_rows(j) == 0;
-    if (tells_none &&
-        (since_reference || fit.scale().top_speed[j] < kMotionOfAJoint)) {
-      continue;
-    }
+    if (tells_none && fit.scale().top_speed[j] < kMotionOfAJoint) continue;
     ++agreement.moving;
     if (tells_none) continue;
     const VectorXd alone = x + further;

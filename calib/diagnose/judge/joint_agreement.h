@@ -34,8 +34,7 @@ struct JointAgreement {
   double delta_chi2 = 0;
   int freedom = 0;
   // Joints that move, also those whose torque tells nothing: a joint that
-  // nothing drives cannot confirm what another one has by itself, unless a
-  // reference shows how that one's friction lags.
+  // nothing drives cannot confirm what another one has by itself.
   int moving = 0;
   int seen_by = 0;  // joints
   // Of joints that tell; empty where the effect has several parameters.

@@ -56,10 +56,7 @@ bool GapFit::TakeOutContacts(ContactSearch search) {
   const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
   std::vector<GapEvent> found = NewContacts(effects, search);
   if (!found.empty() && !effects.empty()) {
-    found = NewContacts(
-        RefineEffects(screen(), baseline(), scale(), effects, -1, data())
-            .effects,
-        search);
+    found = NewContacts(Fitted(effects).effects, search);
   }
   return TakeOut(found);
 }
@@ -75,12 +72,14 @@ bool GapFit::TakeOutPulses() {
   const std::vector<GapCandidate> effects = pool_.Fitted(selection_.chosen);
   std::vector<GapEvent> found = FindPulses(regression_, effects);
   if (!found.empty() && !effects.empty()) {
-    found = FindPulses(regression_, RefineEffects(screen(), baseline(), scale(),
-                                                  effects, -1, data())
-                                        .effects);
+    found = FindPulses(regression_, Fitted(effects).effects);
   }
   if (found.empty() && !effects.empty()) found = FindPulses(regression_, {});
   return TakeOut(found);
+}
+
+RefinedEffects GapFit::Fitted(const std::vector<GapCandidate>& effects) const {
+  return RefineEffects(screen(), baseline(), scale(), effects, -1, data());
 }
 
 void GapFit::MakeScreen() {
@@ -153,13 +152,10 @@ void GapFit::Select() {
   for (int round = 0, barred = 0; round < kRounds;) {
     const std::vector<GapCandidate> chosen = pool_.Fitted(selection_.chosen);
     if (std::none_of(chosen.begin(), chosen.end(), HasShape)) return;
-    const auto fit = [this](const std::vector<GapCandidate>& effects) {
-      return RefineEffects(screen(), baseline(), scale(), effects, -1, data());
-    };
-    const RefinedEffects refined = fit(chosen);
-    const int hollow =
-        FindHollow(screen(), candidates(), selection_, refined,
-                   [&](size_t k) { return fit(AllBut(chosen, k)).delta_chi2; });
+    const RefinedEffects refined = Fitted(chosen);
+    const int hollow = FindHollow(
+        screen(), candidates(), selection_, refined,
+        [&](size_t k) { return Fitted(AllBut(chosen, k)).delta_chi2; });
     if (hollow >= 0 && barred++ < kMostBarred) {
       pool_.Bar(selection_.chosen[hollow]);
       select();
@@ -187,9 +183,7 @@ void GapFit::Select() {
 // those that it was chosen by.
 void GapFit::TakeOutEvent(size_t k) {
   GapEvent event;
-  const RefinedEffects refined =
-      RefineEffects(screen(), baseline(), scale(),
-                    {pool_.Fitted(selection_.chosen)[k]}, -1, data());
+  const RefinedEffects refined = Fitted({pool_.Fitted(selection_.chosen)[k]});
   // By its tails alone any force fits: then it is where it was chosen.
   const TimeRange best = WindowOf(refined.effects[0]);
   const bool is_told =
@@ -382,8 +376,7 @@ void GapFit::KeepOnly(const std::vector<int>& kept) {
   refined_ = RefinedEffects();
   refined_.baseline = refit();
   if (!effects.empty()) {
-    refined_ =
-        RefineEffects(screen(), baseline(), scale(), effects, -1, data());
+    refined_ = Fitted(effects);
   }
   FitModels();
 }
@@ -400,8 +393,7 @@ void GapFit::Refine() {
   if (refined_.effects.size() == 1 && rivals_[0].refined) {
     refined_ = *rivals_[0].refined;
   } else if (!refined_.effects.empty()) {
-    refined_ = RefineEffects(screen(), baseline(), scale(), refined_.effects,
-                             -1, data());
+    refined_ = Fitted(refined_.effects);
   }
 }
 

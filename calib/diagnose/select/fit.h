@@ -96,6 +96,8 @@ class GapFit {
   Eigen::VectorXd LeftByNoise(int joint, bool with_effects) const;
 
  private:
+  // These effects as they fit best together, from where they are.
+  RefinedEffects Fitted(const std::vector<GapCandidate>& effects) const;
   void MakeScreen();
   void FindEvents();
   std::vector<GapEvent> EventsGiven(
