@@ -5,10 +5,10 @@
       [--pairs=NAME,...] [--work=DIR] [--results=FILE]
 
 Pairs of logs of one real robot in one state (or halves of its only log): the first is the
-reference, the second is changed (plants.py) and diagnosed. Sizes of one change rise fourfold to
-tenfold: what is named when it is small has to be named when it is large. Counted are the logs in
-which the change is named above 50 % on its joint, other names beside it, and sizes whose interval
-deviations that hold the truth. About half an hour on two cores; decides nothing.
+reference, the second is changed (plants.py) and diagnosed. What is named when it is small has to
+be named when it is large. Counted are, by size, the logs in which the change is named above 50 %
+on its joint; other names beside it; and intervals of three deviations that hold what was put in.
+Ten minutes on two cores; decides nothing.
 """
 
 import argparse
@@ -114,7 +114,7 @@ def run(job):
     done = subprocess.run([armcal, "diagnose", *flags, f"--reference={reference}", f"--log={path}",
                            "--forward=false", f"--out={out}"], capture_output=True, text=True,
                           check=False)
-    out.with_suffix(".txt").write_text(done.stdout + done.stderr)
+    (work / f"{out.name}.txt").write_text(done.stdout + done.stderr)
     path.unlink()
     if done.returncode > 1 or not (out / "diagnosis.json").exists():
         return {"named": False, "beside": 0, "interval": None,

@@ -140,6 +140,26 @@ TEST_F(ZerosOfAnotherDayTest, WhatAReferenceHasAsWellIsToldBefore) {
   EXPECT_LT(odds(0), -100);
 }
 
+// A load that the diagnosed log alone has. Numbers of the reference's own could
+// make up for one there; those that the log has as well, given it, cannot.
+TEST_F(ZerosOfAnotherDayTest, AReferenceHasNoMoreThanBothLogsNumbersSay) {
+  GapCandidate load;
+  load.effect = FindEffect("payload");
+  load.p =
+      VectorXd::Zero(static_cast<Eigen::Index>(load.effect->parameters.size()));
+  load.p[0] = .5;
+  SimulatedRobot loaded;
+  loaded.robot = arm_.robot;
+  load.effect->apply({&arm_.robot, -1, &arm_.scale}, load.p, &loaded);
+  GapSegment log = Recorded(0, VectorXd::Zero(6));
+  log.tau += RecordedTorque(arm_.robot, baseline_->transitions(), arm_.motion)
+                 .Change(loaded);
+  const GapRegression regression(*baseline_, kBandwidth, {log},
+                                 {Recorded(1, VectorXd::Zero(6))});
+  EXPECT_LT(regression.OddsInReference(load, regression.TorqueOf({load})),
+            -100);
+}
+
 TEST_F(ZerosOfAnotherDayTest, AreNoEffects) {
   const GapFit fit = Fit(small_);
   EXPECT_THAT(PlacesOf(fit), testing::IsEmpty());
