@@ -145,8 +145,9 @@ FoundEffect Findings::Found(size_t k) const {
     found.scatter = fit_.ScatterOf(effect);
     // Of its numbers a reference's model has as much as it shows.
     if (effect.effect->nature != Effect::Nature::kParameter) {
-      found.odds_in_reference = fit_.regression().OddsInReference(
-          effect, fit_.TorqueOf(refined.effects));
+      const GapRegression& regression = fit_.regression();
+      found.odds_in_reference = regression.OddsInReference(
+          effect, regression.TorqueOf(refined.effects));
     }
   }
   found.over_change = OverChangedFriction(fit_, torque_, effect.joint,

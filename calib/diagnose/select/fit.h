@@ -73,12 +73,9 @@ class GapFit {
   // Whitened residual of joint j given the refined effects: their torque as it
   // is, not as columns have it.
   const Eigen::VectorXd& Left(int joint) const { return left_[joint]; }
-  // Of effects, per joint thinned samples, N m or N.
+  // Of an effect, per joint thinned samples, N m or N.
   JointRows TorqueOf(const GapCandidate& effect) const {
     return regression_.TorqueOf({effect});
-  }
-  JointRows TorqueOf(const std::vector<GapCandidate>& effects) const {
-    return regression_.TorqueOf(effects);
   }
   ReferenceScatter ScatterOf(const GapCandidate& effect) const {
     return regression_.ScatterOf(effect);
