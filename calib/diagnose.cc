@@ -88,17 +88,20 @@ DiagnosisOptions FitOptions(const DiagnoseOptions& options) {
 
 // Of a log whose clock was wrong, and whose time is an estimate, no law is told
 // beyond the terms of joints that any file may lack, what a day brings (a load,
-// another mounting, warm joints), and errors of the recording but for another
-// clock: where time is off by a little, any law of motion seems to fit a
-// little. Without loads a torque sensor's gain would stand for one.
-void LeaveOutLaws(std::vector<std::string>* without) {
+// another mounting, warm joints), what stands out of the noise for a moment,
+// and errors of the recording but for another clock: where time is off by a
+// little, any law of motion seems to fit a little, and any force's course a
+// stretch of it. Without loads a torque sensor's gain would stand for one.
+void LeaveOutLaws(DiagnosisOptions* fit) {
+  fit->selection.events = false;
   for (const Effect& effect : Effects()) {
     const bool of_recording =
         effect.nature == Effect::Nature::kRecording && !effect.is_clock;
     const bool of_day =
         effect.nature == Effect::Nature::kDay && !SwingsInTime(effect);
-    if (!effect.joint_term && !of_recording && !of_day) {
-      without->push_back(effect.name);
+    const bool of_moment = effect.nature == Effect::Nature::kEvent;
+    if (!effect.joint_term && !of_recording && !of_day && !of_moment) {
+      fit->without.push_back(effect.name);
     }
   }
 }
@@ -307,7 +310,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   if (!options.controller.empty()) {
     ReconstructTorques(robot, options.controller, all, &reading);
   }
-  if (!clocks.empty()) LeaveOutLaws(&fit.without);
+  if (!clocks.empty()) LeaveOutLaws(&fit);
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
   tbb::task_group looking;

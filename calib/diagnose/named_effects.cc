@@ -27,6 +27,16 @@ std::string Changed(double least_probability, const GapDiagnosis& diagnosis) {
   return changed + (" since " + SinceWhat(diagnosis)) + ": ";
 }
 
+// "Something probably touched the arm 2 times"
+std::string Touched(double probability, size_t times) {
+  const char* const touched = IsConfident(probability) ? " touched"
+                              : probability > Limits().likely
+                                  ? " probably touched"
+                                  : " may have touched";
+  return std::string("Something") + touched + " the arm " +
+         (times == 1 ? "once" : std::to_string(times) + " times");
+}
+
 // Effects in a sentence, and how certain the least certain is.
 struct Named {
   std::vector<std::string> names;
@@ -89,10 +99,8 @@ std::string NamedEffects(const GapDiagnosis& diagnosis) {
   for (const FoundEffect& found : diagnosis.effects) {
     // ChangedTogether() and the data's findings say so.
     if (found.of_another_day || found.of_the_stamps) continue;
-    const size_t times = found.contacts.size();
-    if (times > 0) {
-      touched = "Something touched the arm " +
-                (times == 1 ? "once" : std::to_string(times) + " times");
+    if (!found.contacts.empty()) {
+      touched = Touched(found.probability, found.contacts.size());
     } else {
       const bool is_term = found.fitted.empty() && !diagnosis.has_reference;
       (is_term ? terms : effects).Add(found, diagnosis);

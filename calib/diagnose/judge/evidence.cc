@@ -56,24 +56,52 @@ constexpr double kMostOdds = 12;  // to have a number where there is no rival
 
 double Logistic(double x) { return 1 / (1 + std::exp(-x)); }
 
-// ln of the odds that one of `set` is it, against the next beside them, by the
-// probabilities of `all`.
-double OddsOfAny(const std::vector<PlacedEffect>& all,
-                 const std::vector<PlacedEffect>& set) {
-  double inside = 0, next = 0;
+// Of one effect and those that the data cannot tell from it, by the
+// probabilities of `all`: odds_of_any and share_of_any.
+void SetOddsOfAny(const GapCandidate& effect,
+                  const std::vector<PlacedEffect>& all,
+                  const std::vector<PlacedEffect>& alike,
+                  EffectEvidence* evidence) {
+  double own = 0, inside = 0, next = 0;
   for (const PlacedEffect& one : all) {
-    const bool is_in =
-        std::any_of(set.begin(), set.end(), [&](const PlacedEffect& member) {
-          return member.effect == one.effect && member.joint == one.joint;
-        });
-    if (is_in) {
+    const auto is_it = [&](const PlacedEffect& member) {
+      return member.effect == one.effect && member.joint == one.joint;
+    };
+    if (is_it({effect.effect, effect.joint})) own = one.probability;
+    if (std::any_of(alike.begin(), alike.end(), is_it)) {
       inside += one.probability;
     } else {
       next = std::max(next, one.probability);
     }
   }
-  return next > 0 ? std::clamp(std::log(inside / next), -kMostOdds, kMostOdds)
-                  : kMostOdds;
+  evidence->share_of_any = own / inside;
+  evidence->odds_of_any =
+      next > 0 ? std::clamp(std::log(inside / next), -kMostOdds, kMostOdds)
+               : kMostOdds;
+}
+
+// A logistic regression, log(P / (1 - P)) = w' e (Hosmer and Lemeshow 2000),
+// whose weights were fitted to which claims of the calibration cases were
+// right. `rest` is ln(1 + next) - ln(delta_chi2): how much could still be
+// there, over how much this one explains.
+double ByRegression(const EffectEvidence& e, double ln_odds) {
+  const double rest = std::log1p(e.next) - e.strength;
+  if (e.events > 0) {
+    const EventWeights w;
+    return Logistic(w.constant + w.rest * rest + w.others * (e.chosen - 1) +
+                    w.events * e.events + w.one_joint * e.one_joint);
+  }
+  // A law acts all the time. What data cannot tell that were held out of the
+  // same motion acted in one stretch of it only: a law or something that
+  // happened once is as likely.
+  const double most = e.held_out && !e.IsTold() ? Limits().untold : 1;
+  const EffectWeights& w = e.since_reference ? kSinceReference : kFromFile;
+  const double odds = std::clamp(ln_odds, w.least_odds, w.most_odds);
+  return most * Logistic(w.constant + w.odds * odds + w.rest * rest +
+                         w.stronger * e.stronger +
+                         w.stronger_beside * e.stronger_beside +
+                         w.confirmed * e.confirmation.Share() +
+                         w.least_confirmed * e.least_share);
 }
 
 }  // namespace
@@ -125,7 +153,7 @@ EffectEvidence GapEvidence::ForEffect(
                              -kMostOdds, kMostOdds);
   std::vector<PlacedEffect> alike = CredibleSet(all);
   alike.push_back({effect.effect, effect.joint});
-  evidence.odds_of_any = OddsOfAny(all, alike);
+  SetOddsOfAny(effect, all, alike, &evidence);
   evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
   const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
   for (size_t i = 0; i < delta_chi2.size(); ++i) {
@@ -162,36 +190,19 @@ EffectEvidence GapEvidence::ForEvents() const {
   return evidence;
 }
 
-// A logistic regression, log(P / (1 - P)) = w' e (Hosmer and Lemeshow 2000),
-// whose weights were fitted to which claims of the calibration cases were
-// right. `rest` is ln(1 + next) - ln(delta_chi2): how much could still be
-// there, over how much this one explains.
-double ProbabilityOf(const EffectEvidence& e) {
-  const double rest = std::log1p(e.next) - e.strength;
-  if (e.events > 0) {
-    const EventWeights w;
-    return Logistic(w.constant + w.rest * rest + w.others * (e.chosen - 1) +
-                    w.events * e.events + w.one_joint * e.one_joint);
-  }
-  // A law acts all the time. What data cannot tell that were held out of the
-  // same motion acted in one stretch of it only: a law or something that
-  // happened once is as likely.
-  const double most = e.held_out && !e.IsTold() ? Limits().untold : 1;
-  const EffectWeights& w = e.since_reference ? kSinceReference : kFromFile;
-  const double odds = std::clamp(e.odds, w.least_odds, w.most_odds);
-  return most * Logistic(w.constant + w.odds * odds + w.rest * rest +
-                         w.stronger * e.stronger +
-                         w.stronger_beside * e.stronger_beside +
-                         w.confirmed * e.confirmation.Share() +
-                         w.least_confirmed * e.least_share);
-}
-
 // Which of several is there, and whether one of them is, are two questions:
 // rivals of an effect speak against it and not against all of them.
 double ProbabilityOfAny(const EffectEvidence& e) {
-  EffectEvidence any = e;
-  any.odds = e.odds_of_any;
-  return ProbabilityOf(any);
+  return ByRegression(e, e.odds_of_any);
+}
+
+// P(this) = P(any) P(this | any), where the regression says more: its odds are
+// one number among others, and a strong finding of which data cannot tell the
+// cause is strong whatever the cause. Scores are ln likelihoods (Alternatives),
+// so that the share of what they make probable is P(this | any).
+double ProbabilityOf(const EffectEvidence& e) {
+  return std::min(ByRegression(e, e.odds),
+                  e.share_of_any * ProbabilityOfAny(e));
 }
 
 double ProbabilityBeyondOneReference(const EffectEvidence& e) {

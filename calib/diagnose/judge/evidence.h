@@ -12,8 +12,9 @@ namespace armcal {
 // What speaks for an effect besides its score, and against it.
 struct EffectEvidence {
   double odds = 0;  // ln of its softmax probability against the next
-  // The same of it and all that data cannot tell from it, together.
-  double odds_of_any = 0;
+  // The same of it and all that data cannot tell from it, together, and its
+  // share of their probability.
+  double odds_of_any = 0, share_of_any = 1;
   double strength = 0;  // ln of its delta chi^2
   int chosen = 1;       // how many effects were, all events being one
   // How many of the others are stronger, and of these on its joint (if it has
@@ -63,7 +64,9 @@ class GapEvidence {
 
 // The probability that the effect is the one, and the joint: a logistic
 // regression on evidence, fitted to which effects were right in the calibration
-// cases of the blind bench (tests/blind/EVALUATIONS.md says which).
+// cases of the blind bench (tests/blind/EVALUATIONS.md says which). No more
+// than its share of the probability that it or one of those that the data
+// cannot tell from it is there.
 double ProbabilityOf(const EffectEvidence& evidence);
 // That it is this one or one of those that the data cannot tell from it: the
 // same regression on the evidence for all of them as if they were one.

@@ -40,6 +40,19 @@ TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
                              testing::EndsWith("; something else is left.")));
 }
 
+TEST(NamedEffects, TellsTouchesAsSurelyAsTheyAreKnown) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects = {MakeTouched()};
+  const std::pair<double, const char*> told[] = {
+      {.97, "Something touched the arm 2 times"},
+      {.6, "Something probably touched the arm 2 times"},
+      {.5, "Something may have touched the arm 2 times"}};
+  for (const auto& [probability, words] : told) {
+    diagnosis.effects[0].probability = probability;
+    EXPECT_THAT(BriefReport(diagnosis), HasSubstr(words));
+  }
+}
+
 // A body that the file has and the robot lacks is told as one taken off.
 TEST(NamedEffects, TellsWhatWasTakenOff) {
   GapDiagnosis diagnosis = SampleDiagnosis();

@@ -8,7 +8,7 @@ namespace armcal::evidence_test {
 
 EffectEvidence Clear() {
   EffectEvidence evidence;
-  evidence.odds = 8;
+  evidence.odds = evidence.odds_of_any = 8;
   evidence.strength = 7;
   evidence.confirmation = {500, 500};
   evidence.least_share = 1;
@@ -83,6 +83,21 @@ TEST(ProbabilityOfAny, IsNotLessForWhatCannotBeToldApart) {
   evidence.odds_of_any = Clear().odds;
   EXPECT_LT(ProbabilityOf(evidence), ProbabilityOf(Clear()));
   EXPECT_EQ(ProbabilityOfAny(evidence), ProbabilityOf(Clear()));
+}
+
+// However strong a finding is, of two causes that fit it as well each has half
+// of its probability: friction of a joint that turned one way only is an offset
+// as well.
+TEST(ProbabilityOf, IsAShareOfWhatCannotBeToldApart) {
+  for (const bool since_reference : {false, true}) {
+    EffectEvidence evidence = Clear();
+    evidence.since_reference = since_reference;
+    evidence.odds = 0;
+    evidence.share_of_any = .5;
+    evidence.strength = 12;
+    EXPECT_GT(ProbabilityOfAny(evidence), .95);
+    EXPECT_DOUBLE_EQ(ProbabilityOf(evidence), ProbabilityOfAny(evidence) / 2);
+  }
 }
 
 TEST(ProbabilityOf, IsAtMostEvenWhereHeldOutDataCannotTell) {
