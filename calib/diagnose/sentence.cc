@@ -26,10 +26,14 @@ bool AnyZeroMoved(const GapDiagnosis& diagnosis) {
                      IsMovedZero);
 }
 
-// "elbow.viscous -20 %"; a zero has no size of which that could be a share.
+// "elbow.viscous -20 %"; a zero has no size of which that could be a share, and
+// of what was nothing before, a share says nothing.
 std::string Change(const MovedParameter& moved, bool is_zero) {
+  constexpr double kOfNothing = 10;
   const double change = moved.value - moved.nominal;
-  return moved.name + (is_zero || moved.nominal == 0
+  const bool was_nothing =
+      std::abs(change) > kOfNothing * std::abs(moved.nominal);
+  return moved.name + (is_zero || was_nothing
                            ? Format(" %+.2g %s", change, moved.unit.c_str())
                            : Format(" %+.0f %%", 100 * change / moved.nominal));
 }

@@ -153,6 +153,7 @@ RESIDUALS = {  # name: (residual of joint 1, N m; what orders it; its label)
     "cable": (each(lambda k: math.tanh((Q[k] - 1.6) / .15)), Q, "q, rad"),
     "torque_ripple": (each(lambda k: math.sin(12 * Q[k])), Q, "q, rad"),
     "torque_gain": (each(lambda k: .06 * TAU[k]), TAU, "torque, N m"),
+    "torque_gain_of_all_joints": (each(lambda k: .06 * TAU[k]), TAU, "torque, N m"),
     "torque_nonlinearity": (each(lambda k: .1 * TAU[k] ** 3 / 15 ** 2), TAU,
                             "torque, N m"),
     "torque_saturation": (each(lambda k: TAU[k] - max(-12., min(12., TAU[k]))),
@@ -171,6 +172,7 @@ RESIDUALS = {  # name: (residual of joint 1, N m; what orders it; its label)
     "link_inertia": (change(m2=3.3, i2=.033), Q, "q, rad"),
     "thermal_friction": (each(lambda k: -(.5 * V[k] + .8 * sign(V[k])) *
                               (1 - math.exp(-T[k] / 5))), T, "t, s"),
+    "viscous_friction_of_all_joints": (each(lambda k: -.2 * VISCOUS[0] * V[k]), V, "v, rad/s"),
     "time_drift": (each(lambda k: (1 - math.exp(-T[k] / 4)) /
                         (1 - math.exp(-3))), T, "t, s"),
     "external_contact": (each(lambda k: -2 * math.exp(-((T[k] - 7) / .4) ** 2)

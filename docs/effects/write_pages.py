@@ -200,11 +200,11 @@ the same torque after the model's own numbers were fitted, on one of these arms 
 |---|---|
 | flips with the direction | `coulomb_friction`, `stribeck`, `load_friction`, `position_friction`, `presliding`, `thermal_friction` |
 | flips with another joint's direction | `coupled_friction`, `torque_crosstalk` |
-| grows with speed | `viscous_friction`, `quadratic_friction`, `asymmetric_friction` |
+| grows with speed | `viscous_friction`, `quadratic_friction`, `asymmetric_friction`; on all joints: `viscous_friction_of_all_joints`, `time_base` |
 | follows acceleration | `armature`, `link_inertia`, `elasticity`, `time_base` |
 | repeats with position | `spring`, `cable`, `torque_ripple`, `position_friction` |
 | follows gravity, on several joints | `payload`, `added_mass`, `link_inertia`, `link_length`, `encoder_offset`, `base_tilt` |
-| follows the torque itself | `torque_gain`, `torque_nonlinearity`, `torque_saturation`, `torque_deadband` |
+| follows the torque itself | `torque_gain`, `torque_gain_of_all_joints`, `torque_nonlinearity`, `torque_saturation`, `torque_deadband` |
 | comes where torque changes fast | `delay`, `backlash`, `elasticity` |
 | is there at rest | `torque_offset`, `vibration`, `time_drift` |
 | comes once | `external_contact` |

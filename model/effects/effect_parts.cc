@@ -190,6 +190,19 @@ void AddActuator(const EffectSite& site,
                 commanded}});
 }
 
+void AddGain(const EffectSite& site, double gain, SimulatedRobot* robot) {
+  AddActuator(
+      site, [=](double commanded) { return commanded / (1 + gain); },
+      [=](double given) { return (1 + gain) * given; }, robot);
+}
+
+// A motor that gives ten times what is recorded or more, or the opposite, or a
+// third of it, has another fault than its constant.
+bool IsOfAMotorConstant(const EffectSite&,
+                        const std::vector<EffectEstimate>& estimates) {
+  return estimates[0].value > -.9 && estimates[0].value < 2;
+}
+
 double SoftPlus(double x) {
   constexpr double kFar = 25;  // where what is rounded is 1e-11
   if (std::abs(x) > kFar) return x > 0 ? x : 0;

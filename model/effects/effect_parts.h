@@ -83,6 +83,11 @@ void AddActuator(const EffectSite& site,
                  const std::function<double(double commanded)>& given,
                  const std::function<double(double given)>& commanded,
                  SimulatedRobot* robot);
+// A motor that gives commanded / (1 + gain).
+void AddGain(const EffectSite& site, double gain, SimulatedRobot* robot);
+// Whether the first estimate can be such a gain of a motor's constant.
+bool IsOfAMotorConstant(const EffectSite&,
+                        const std::vector<EffectEstimate>& estimates);
 
 // a sin(x) + b cos(x) = amplitude sin(x + phase).
 double Amplitude(double a, double b);

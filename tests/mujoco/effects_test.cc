@@ -138,6 +138,7 @@ TEST(EffectsInMujoco, FrictionFollowsArmcal) {
   EXPECT_LT(Apart("presliding", 1, Values({6, .02})), .05);
   EXPECT_LT(Apart("load_friction", 1, Values({.2})), .05);
   EXPECT_LT(Apart("thermal_friction", 1, Values({.03, .03, 2})), .05);
+  EXPECT_LT(Apart("viscous_friction_of_all_joints", -1, Values({.5})), .05);
   EXPECT_LT(Apart("coupled_friction", 1, Values({5, 2, 3, .7, .02})), .05);
 }
 

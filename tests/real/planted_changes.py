@@ -54,10 +54,12 @@ KINDS = {  # how a change is planted, its sizes, the effects that are right, the
     "none": (plants.none, (0,), (), None),
     "delay": (plants.delay, (5, 10, 20, 40, 80), ("delay",), "delay"),
     "gain": (plants.gain, (5, 10, 20, 40), ("torque_gain",), "gain"),
+    "scale": (plants.scale_all, (5, 10, 20, 40), ("torque_gain_of_all_joints",), "gain"),
     "coulomb": (plants.coulomb, (5, 10, 20, 40), ("coulomb_friction",), "coulomb"),
     "viscous": (plants.viscous, (5, 10, 20, 40), ("viscous_friction",), "viscous"),
     "encoder": (plants.encoder, (.5, 2, 8), ("encoder_offset",), "offset"),
     "pulse": (plants.pulse, (20, 40, 80), ("external_contact",), None),
+    "push": (plants.push, (20, 40, 80), ("external_contact",), None),
     "payload": (plants.payload, (5, 10, 20, 40), ("payload", "added_mass"), "mass"),
 }
 
@@ -73,20 +75,21 @@ def half(log, first):
     return log
 
 
-def prepared(work, name):
-    """(reference's file, log to be changed, flags) of a pair."""
+def prepared(work, name, tag=""):
+    """(reference's file, log to be changed, flags) of a pair. `tag`: whose the file is, where
+    several jobs write one at a time."""
     folder, robot, reference, other, flags = PAIRS[name]
     flags = (f"--robot={DATA / folder / robot}", *flags)
     if other:
         return DATA / folder / reference, Log(DATA / folder / other), flags
-    path = work / f"{name}_reference.csv"
+    path = work / f"{name}{tag}_reference.csv"
     half(Log(DATA / folder / reference), True).write(path)
     return path, half(Log(DATA / folder / reference), False), flags
 
 
 def true_value(kind, size, log):
     """In the estimate's unit, or None where the truth has another form."""
-    if kind == "gain":
+    if kind in ("gain", "scale"):
         return 1 / (1 + size / 100) - 1
     return {"delay": -1e-3 * size, "encoder": np.radians(size),
             "payload": getattr(log, "planted", None)}.get(kind)
@@ -101,7 +104,7 @@ def run(job):
     """One diagnosis: {named, beside, right interval or None, words}; None: that log cannot have
     this change."""
     armcal, work, name, kind, size = job
-    reference, log, flags = prepared(work / "references", name)
+    reference, log, flags = prepared(work / "references", name, f"_{kind}_{size}")
     plant, _, effects, estimate = KINDS[kind]
     robot = {"file": flags[0].split("=")[1], "gravity": np.array([0, 0, -9.81]),
              "constants": constants(flags, log.joints)}

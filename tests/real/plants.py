@@ -53,6 +53,15 @@ def gain(log, size, _robot):
     return j + 1
 
 
+def scale_all(log, size, _robot):
+    """All drives so. None of fewer than three, which are not asked for it."""
+    if sum(scale(log, j) > 0 for j in range(log.joints)) < 3:
+        return None
+    log.columns[log.torque] = [[x / (1 + size / 100) for x in column]
+                               for column in log.columns[log.torque]]
+    return 0
+
+
 def coulomb(log, size, _robot):
     """Friction of `size` percent of the torque's rms, smoothed within 2 % of top speed."""
     j = busiest(log)
@@ -76,14 +85,19 @@ def encoder(log, size, _robot):
     return j + 1
 
 
-def pulse(log, size, _robot):
+def pulse(log, size, _robot, length=.3):
     """A push of .3 s (half a sine) at the log's middle, `size` percent of the torque's rms."""
     j = busiest(log)
     t = np.array(log.t)
-    phase = (t - .5 * (t[0] + t[-1])) / .3 + .5
+    phase = (t - .5 * (t[0] + t[-1])) / length + .5
     inside = (phase > 0) & (phase < 1)
     add(log, j, np.where(inside, size / 100 * scale(log, j) * np.sin(np.pi * phase), 0))
     return j + 1
+
+
+def push(log, size, robot):
+    """The same, of 1.5 s."""
+    return pulse(log, size, robot, 1.5)
 
 
 def turned(axis, angles):

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <memory>
 
 #include "calib/diagnose/candidates/block_covariance.h"
 #include "calib/diagnose/candidates/bounded_covariance.h"
@@ -251,7 +252,9 @@ MatrixXd Spread(const std::vector<GapCandidate>& effects,
 // variable projection (Golub and Pereyra 1973), whose baseline is eliminated at
 // every point and whose jacobian is of the projected residual. Parameters are
 // held within their bounds by the solver. delta_chi2 is chi squared without the
-// effects less twice Ceres' final cost.
+// effects less twice Ceres' final cost. Where the torque is not finite at the
+// start (friction that heats its joint and grows with its warmth) nothing is
+// fitted, and the effects explain less than none.
 RefinedEffects RefineEffects(const GapScreen& screen,
                              const GapBaseline& baseline,
                              const MotionScale& scale,
@@ -261,10 +264,21 @@ RefinedEffects RefineEffects(const GapScreen& screen,
   RefinedEffects refined;
   const VariedEffects varied(baseline, scale, effects, only, *data);
   const std::vector<Coordinate>& coordinates = varied.coordinates();
-  auto* cost = new ProjectedResidual(screen, varied, data->rows());
+  auto owned =
+      std::make_unique<ProjectedResidual>(screen, varied, data->rows());
+  ProjectedResidual* const cost = owned.get();
   VectorXd u = cost->Lowest(varied.Starts(), around);
+  if (!cost->ResidualAt(u).allFinite()) {
+    const auto size = static_cast<Eigen::Index>(coordinates.size());
+    refined.effects = effects;
+    refined.covariance =
+        Spread(effects, coordinates, MatrixXd::Zero(size, size));
+    refined.baseline = screen.BaselineGiven(JointRows(screen.num_joints()));
+    refined.delta_chi2 = -std::numeric_limits<double>::infinity();
+    return refined;
+  }
   ceres::Problem problem;
-  problem.AddResidualBlock(cost, nullptr, u.data());
+  problem.AddResidualBlock(owned.release(), nullptr, u.data());
   SetBounds(coordinates, u.data(), &problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;

@@ -12,14 +12,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Thinned samples x n, without signs.
-MatrixXd Speeds(const GapRows& rows) {
+// Thinned samples x n.
+MatrixXd Velocities(const GapRows& rows) {
   std::vector<MatrixXd> all;
   for (const GapSegment& segment : rows.segments()) {
     all.push_back(segment.motion.qd);
   }
-  return rows.ThinAll(all).cwiseAbs();
+  return rows.ThinAll(all);
 }
+// The same, without signs.
+MatrixXd Speeds(const GapRows& rows) { return Velocities(rows).cwiseAbs(); }
 MatrixXd Accelerations(const GapRows& rows) {
   std::vector<MatrixXd> all;
   for (const GapSegment& segment : rows.segments()) {
@@ -60,13 +62,36 @@ Eigen::ArrayXd LargestRatio(const MatrixXd& all, const VectorXd& range) {
 
 MotionRange::MotionRange(const GapRows& rows)
     : speeds_(UsualLargest(rows, Speeds(rows))),
-      accelerations_(UsualLargest(rows, Accelerations(rows))) {}
+      accelerations_(UsualLargest(rows, Accelerations(rows))) {
+  const MatrixXd velocities = Velocities(rows);
+  forward_ = velocities.cwiseMax(0.).colwise().sum().cwiseQuotient(
+      velocities.cwiseAbs().colwise().sum());
+}
 
 Eigen::ArrayXd MotionRange::Growth(const GapRows& rows) const {
   return LargestRatio(Speeds(rows), speeds_)
       .square()
       .max(LargestRatio(Accelerations(rows), accelerations_))
       .max(1.);
+}
+
+// A way of less than 5 % (usual_motion) of all that a joint went is the noise
+// of its position, or too little to fit its friction.
+Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> MotionRange::Knows(
+    const GapRows& rows) const {
+  const double least = 1 - Limits().usual_motion;
+  const MatrixXd velocities = Velocities(rows);
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> knows(velocities.rows(),
+                                                           velocities.cols());
+  for (int j = 0; j < velocities.cols(); ++j) {
+    const bool back = !(1 - forward_[j] < least),
+               ahead = !(forward_[j] < least);
+    knows.col(j) =
+        (velocities.col(j).array() < 0)
+            .select(Eigen::ArrayX<bool>::Constant(velocities.rows(), back),
+                    Eigen::ArrayX<bool>::Constant(velocities.rows(), ahead));
+  }
+  return knows;
 }
 
 Eigen::ArrayXXd MotionRange::OwnGrowth(const GapRows& rows) const {

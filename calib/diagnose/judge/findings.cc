@@ -110,9 +110,10 @@ FoundEffect Findings::Describe(const GapCandidate& effect,
 // told where they are in the 95 % set of its place. The effect's own gap is
 // known with a reference only: without one, a refit may have taken up what is
 // the effect's. Two further tests are asked of what they can be asked of:
-// whether joints agree, of clocks and delays, which are one for all joints; and
-// whether it is beyond the scatter from log to log of the reference, of what
-// does not swing in time, since the phase of that is of each log.
+// whether joints agree, of clocks, delays and what else has one size for all
+// joints; and whether it is beyond the scatter from log to log of the
+// reference, of what does not swing in time, since the phase of that is of each
+// log.
 FoundEffect Findings::Found(size_t k) const {
   const RefinedEffects& refined = fit_.refined();
   const GapCandidate& effect = refined.effects[k];
@@ -133,7 +134,10 @@ FoundEffect Findings::Found(size_t k) const {
   }
   found.evidence = evidence_.ForEffect(k, all);
   // A clock is one for all joints; what lags differently is none.
-  if (effect.joint < 0 && effect.effect->nature == Effect::Nature::kRecording) {
+  const bool has_one_size =
+      effect.effect->nature == Effect::Nature::kRecording ||
+      !effect.effect->if_joints_disagree.empty();
+  if (effect.joint < 0 && has_one_size) {
     const JointAgreement agreement = JointAgreementOn(fit_, k);
     found.joints_agree =
         !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();

@@ -22,19 +22,28 @@ double VelocityAt(const GapRows& rows, const Contact& contact, int joint) {
 
 // Whether what acts on a joint is against its motion each time, which of pushes
 // is so by chance in 2^-k of k cases: friction that comes and goes is no touch.
-bool OnlyBrake(const GapRows& rows, const std::vector<GapEvent>& events) {
+bool OnlyBrakes(const GapRows& rows, const std::vector<GapEvent>& events,
+                int joint) {
   constexpr int kLeastCases = 5;  // 3 %
-  for (int j = 0; j < rows.num_joints(); ++j) {
-    int with = 0, against = 0;
-    for (const GapEvent& event : events) {
-      if (event.contact.joint != j) continue;
-      const double power =
-          event.contact.torque[j] * VelocityAt(rows, event.contact, j);
-      (power < 0 ? against : with) += 1;
-    }
-    if (against >= kLeastCases && with == 0) return true;
+  int with = 0, against = 0;
+  for (const GapEvent& event : events) {
+    if (event.contact.joint != joint) continue;
+    const double power =
+        event.contact.torque[joint] * VelocityAt(rows, event.contact, joint);
+    (power < 0 ? against : with) += 1;
   }
-  return false;
+  return against >= kLeastCases && with == 0;
+}
+
+// How much of the logs pulses take, those on one joint or (-1) all, s.
+double TimeOfPulses(const std::vector<GapEvent>& events, int joint) {
+  double time = 0;
+  for (const GapEvent& event : events) {
+    if (joint >= 0 && event.contact.joint != joint) continue;
+    const TimeRange& window = event.contact.window;
+    time += (window.end - window.begin) / Limits().event_reach;
+  }
+  return time;
 }
 
 // The logs of a regression, of which nothing is masked.
@@ -57,25 +66,31 @@ GapRegression MaskedBy(const std::vector<GapEvent>& events,
 
 }  // namespace
 
-// Pulses that stand out in more of the time than contacts may take are what the
-// model lacks, and forces that only ever brake a joint are friction that comes
-// and goes. Either spoils all of them: one that is real cannot be told among
-// them.
+void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events) {
+  const double most = Limits().most_of_time * rows.time();
+  std::vector<bool> spoilt;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    spoilt.push_back(TimeOfPulses(*events, j) > most ||
+                     OnlyBrakes(rows, *events, j));
+  }
+  events->erase(std::remove_if(events->begin(), events->end(),
+                               [&](const GapEvent& event) {
+                                 return spoilt[event.contact.joint];
+                               }),
+                events->end());
+  if (TimeOfPulses(*events, -1) > most) events->clear();
+}
+
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects) {
   if (!regression.reference()) return {};
   const GapRows& rows = regression.rows();
   std::vector<GapEvent> events =
       PulseSearch(regression, effects, *regression.data()).Find();
-  double time = 0;
   for (GapEvent& event : events) {
     event.chance_of_logs = regression.has_several_references();
-    time += (event.contact.window.end - event.contact.window.begin) /
-            Limits().event_reach;
   }
-  if (time > Limits().most_of_time * rows.time() || OnlyBrake(rows, events)) {
-    events.clear();
-  }
+  DropSpoilt(rows, &events);
   return events;
 }
 

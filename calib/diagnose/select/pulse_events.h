@@ -13,11 +13,17 @@ namespace armcal {
 // (PulseScan) given the baseline and `effects`. Only a reference, in which
 // nothing touched the arm, tells what pulses a model leaves by itself, of
 // motion as it has (MotionRange): one of the log has to stand out from them.
-// None where there is no reference, nor where they would take more of the time
-// than contacts do: that is no touch but what the model lacks. Times that are
-// masked already have none.
+// None where there is no reference, nor of what no touch is (DropSpoilt). Times
+// that are masked already have none.
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects);
+
+// Pulses that take more of the time than contacts do (most_of_time) are what
+// the model lacks, and forces that only ever brake a joint are friction that
+// comes and goes. On one joint, of which the reference may not have shown
+// enough, either spoils what is found there: one that is real cannot be told
+// among them. What all joints together have in too much of the time spoils all.
+void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events);
 
 // Events without the pulses that no longer stand out given these effects, all
 // samples of theirs seen: they were found given others, which left more.

@@ -172,12 +172,14 @@ class ModelOfPulses {
   // reference has, errors of inertias and of drag grow by MotionRange's factor
   // f, and what the model leaves has the variance f^2 of that in the reference.
   // A joint that does not slide holds any torque up to its Coulomb friction,
-  // and the torque of joints without a motor is told in no unit: these samples
+  // the torque of joints without a motor is told in no unit, and what a joint
+  // needs the way that the reference never moved it is not known: these samples
   // say nothing, and have an infinite one.
   MatrixXd ExtraStddev(const GapRows& rows,
                        const std::vector<Autoregression>& noise) const {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     const Eigen::ArrayXd growth = range_.Growth(rows);
+    const auto knows = range_.Knows(rows);
     const VectorXd usual = UsualTorque(rows.segments());
     MatrixXd extra_stddev(rows.num_thin(), rows.num_joints());
     for (int j = 0; j < rows.num_joints(); ++j) {
@@ -187,7 +189,7 @@ class ModelOfPulses {
       for (int k = 0; k < rows.num_thin(); ++k) {
         const bool holds = sticks && rows.IsHeld(rows.SegmentOf(k), j, k);
         extra_stddev(k, j) =
-            holds || usual[j] == 0
+            holds || usual[j] == 0 || !knows(k, j)
                 ? kUnknown
                 : std::sqrt(std::max(0., rows.variance(j, k) - own) +
                             left * (growth[k] * growth[k] - 1));

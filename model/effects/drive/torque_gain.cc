@@ -3,17 +3,6 @@
 namespace armcal {
 inline namespace effects {
 
-namespace {
-
-// A motor that gives ten times what is recorded or more, or the opposite, or a
-// third of it, has another fault than its constant.
-bool IsOfAConstant(const EffectSite&,
-                   const std::vector<EffectEstimate>& estimates) {
-  return estimates[0].value > -.9 && estimates[0].value < 2;
-}
-
-}  // namespace
-
 // logged = (1 + gain) given: a motor constant other than assumed.
 Effect TorqueGain() {
   Effect effect;
@@ -24,12 +13,7 @@ Effect TorqueGain() {
   effect.parameters = {
       Linear("gain", "1", [](const EffectSite&) { return .05; })};
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
-                    SimulatedRobot* robot) {
-    const double gain = p[0];
-    AddActuator(
-        site, [=](double commanded) { return commanded / (1 + gain); },
-        [=](double given) { return (1 + gain) * given; }, robot);
-  };
+                    SimulatedRobot* robot) { AddGain(site, p[0], robot); };
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     drive->gain /= 1 + NumberOf(numbers, "gain");
     return true;
@@ -38,7 +22,7 @@ Effect TorqueGain() {
     return EffectNumbers{{"gain", p[0]}};
   };
   effect.unfit = WhyNotRecorded;
-  effect.plausible = IsOfAConstant;
+  effect.plausible = IsOfAMotorConstant;
   effect.experiment = "a known payload, held and moved";
   return effect;
 }

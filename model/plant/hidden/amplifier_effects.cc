@@ -53,6 +53,33 @@ HiddenEffect TorqueGain() {
           nullptr};
 }
 
+// given = commanded / (1 + g_j), the g_j of all joints within 2 % of 1 + gain.
+HiddenEffect TorqueGainOfAllJoints() {
+  return {
+      "torque_gain_of_all_joints",
+      true,
+      Scope::kRobot,
+      "Torques in another unit than assumed, as peak currents for rms ones: "
+      "logged torques of all joints are (1 + gain) of what motors gave.",
+      {{"gain", "1", .15, .05, .5, Draw::kLogEitherSign, 3e-3, .88}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        std::mt19937_64 random = site.Random("torque_gain_of_all_joints");
+        std::uniform_real_distribution<double> share(.98, 1.02);
+        for (int j = 0; j < site.num_driven(); ++j) {
+          EffectSite at = site;
+          at.joint = j;
+          const double times = share(random) * (1 + site.p[0]);
+          AddMap(at, [=](double tau) { return tau / times; });
+        }
+        return {{"gain", "1", site.p[0]}};
+      },
+      [](const SimulatedRobot& robot, int) -> std::string {
+        return robot.robot.num_joints() - robot.num_passive > 2
+                   ? ""
+                   : "the robot has fewer than three motors";
+      }};
+}
+
 // given = commanded (1 - 2 f x^2 / (1 + x^2)), x = commanded / 2 T: the motor
 // constant has fallen by the share f at twice the joint's torque scale T.
 HiddenEffect TorqueNonlinearity() {
@@ -129,8 +156,8 @@ HiddenEffect TorqueDeadband() {
 }  // namespace
 
 std::vector<HiddenEffect> AmplifierEffects() {
-  return {TorqueOffset(), TorqueGain(), TorqueNonlinearity(),
-          TorqueSaturation(), TorqueDeadband()};
+  return {TorqueOffset(),       TorqueGain(),       TorqueGainOfAllJoints(),
+          TorqueNonlinearity(), TorqueSaturation(), TorqueDeadband()};
 }
 
 }  // namespace armcal

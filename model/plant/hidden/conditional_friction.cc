@@ -144,11 +144,57 @@ HiddenEffect ThermalFriction() {
       }};
 }
 
+// Grease that is `warmer` kelvin warmer in all joints, each by a share of that
+// between .9 and 1.1. Its viscosity goes by Vogel's law as in ThermalFriction,
+// exp(-x), x = beta dT C / (C + dT); sheared fast it is thinner (Cross 1965):
+// tau = -viscous (exp(-x) - 1) v / (1 + |v| / (20 S)), beside the friction that
+// joints have.
+HiddenEffect ViscousFrictionOfAllJoints() {
+  return {
+      "viscous_friction_of_all_joints",
+      true,
+      Scope::kRobot,
+      "Grease that is warmer or colder than when the friction was measured: "
+      "viscous friction of all joints by one share.",
+      {{"warmer", "K", 5, 1, 15, Draw::kLogEitherSign, .05, 40},
+       {"beta", "1/K", .025, .015, .035, Draw::kUniform, .002, .2}},
+      [](const EffectSite& site) -> std::vector<EffectValue> {
+        const auto change = [&](double dT) {
+          return std::expm1(-site.p[1] * dT * kVogel / (kVogel + dT));
+        };
+        std::mt19937_64 random =
+            site.RandomInTime("viscous_friction_of_all_joints");
+        std::uniform_real_distribution<double> share(.9, 1.1);
+        for (int j = 0; j < site.num_driven(); ++j) {
+          EffectSite at = site;
+          at.joint = j;
+          const double viscous = at.link().joint.viscous;
+          const double more = viscous * change(share(random) * site.p[0]);
+          const double S = at.speed();
+          const int k = at.from_tip();
+          at.AddFriction(
+              [=](const ArmInstant& instant, const double*, double*) {
+                const double v = FromTip(instant.velocity, k);
+                return -more * v / (1 + std::abs(v) / (20 * S));
+              });
+        }
+        return {{"share", "1", change(site.p[0])}};
+      },
+      [](const SimulatedRobot& robot, int) -> std::string {
+        int viscous = 0;
+        for (const Link& link : robot.robot.links) {
+          viscous += link.joint.viscous > 0;
+        }
+        return viscous > 2 ? ""
+                           : "fewer than three joints have viscous friction";
+      }};
+}
+
 }  // namespace
 
 std::vector<HiddenEffect> ConditionalFriction() {
   return {LoadFriction(), PositionFriction(), CoupledFriction(),
-          ThermalFriction()};
+          ThermalFriction(), ViscousFrictionOfAllJoints()};
 }
 
 }  // namespace armcal

@@ -219,7 +219,7 @@ TEST(BriefReport, SaysFirstWhatFrictionHasChanged) {
   diagnosis.has_reference = true;
   diagnosis.moved = {
       {"elbow.viscous", "N m s/rad", 10, 8, .1, -2, JointTerm::kViscous},
-      {"wrist.coulomb", "N m", 0, .25, .01, 1, JointTerm::kCoulomb}};
+      {"wrist.coulomb", "N m", 1e-9, .25, .01, 1, JointTerm::kCoulomb}};
   const std::string said =
       "Friction has changed since the reference: elbow.viscous -20 %, "
       "wrist.coulomb +0.25 N m. ";

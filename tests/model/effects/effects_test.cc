@@ -20,16 +20,18 @@ TEST(Effects, AreThoseOfTheDesignInItsOrder) {
   std::vector<std::string> names;
   for (const Effect& effect : Effects()) names.push_back(effect.name);
   EXPECT_THAT(
-      names, testing::ElementsAre(
-                 "viscous_friction", "coulomb_friction", "torque_offset",
-                 "asymmetric_friction", "quadratic_friction", "stribeck",
-                 "load_friction", "position_friction", "coupled_friction",
-                 "presliding", "armature", "elasticity", "backlash", "spring",
-                 "cable", "torque_ripple", "torque_gain", "torque_nonlinearity",
-                 "torque_saturation", "torque_deadband", "torque_crosstalk",
-                 "delay", "encoder_offset", "link_length", "base_tilt",
-                 "payload", "added_mass", "link_inertia", "thermal_friction",
-                 "time_drift", "external_contact", "vibration", "time_base"));
+      names,
+      testing::ElementsAre(
+          "viscous_friction", "coulomb_friction", "torque_offset",
+          "asymmetric_friction", "quadratic_friction", "stribeck",
+          "load_friction", "position_friction", "coupled_friction",
+          "presliding", "armature", "elasticity", "backlash", "spring", "cable",
+          "torque_ripple", "torque_gain", "torque_gain_of_all_joints",
+          "torque_nonlinearity", "torque_saturation", "torque_deadband",
+          "torque_crosstalk", "delay", "encoder_offset", "link_length",
+          "base_tilt", "payload", "added_mass", "link_inertia",
+          "thermal_friction", "viscous_friction_of_all_joints", "time_drift",
+          "external_contact", "vibration", "time_base"));
   EXPECT_EQ(FindEffect("payload")->name, "payload");
   EXPECT_EQ(FindEffect("gremlins"), nullptr);
 }

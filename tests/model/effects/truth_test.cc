@@ -173,12 +173,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"viscous_friction", {"viscous"}},
         Case{"coulomb_friction", {"coulomb"}},
+        Case{"viscous_friction_of_all_joints", {"share"}},
         Case{"torque_offset", {"offset"}}, Case{"presliding", {"coulomb"}},
         Case{"armature", {"armature"}},
         // A secant of a gear whose last stiffness is 1.5 times its first.
         Case{"elasticity", {"stiffness"}, "", 1.5},
         Case{"torque_ripple", {"ripple", "phase"}},
-        Case{"torque_gain", {"gain"}}, Case{"torque_deadband", {"deadband"}},
+        Case{"torque_gain", {"gain"}},
+        Case{"torque_gain_of_all_joints", {"gain"}},
+        Case{"torque_deadband", {"deadband"}},
         Case{"torque_crosstalk", {"gain"}}, Case{"delay", {"delay"}},
         Case{"encoder_offset", {"offset"}}, Case{"link_length", {"length"}},
         Case{"base_tilt", {"tilt", "gravity_x", "gravity_y", "gravity_z"}},

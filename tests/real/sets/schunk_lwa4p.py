@@ -1,5 +1,7 @@
 """Schunk LWA 4P: one torque sequence replayed while friction falls (TRUTH.md: warm-up,
 viscous friction of several joints by a fifth to a quarter)."""
+import re
+
 from checks import names_only
 from reading import claims, told
 from runs import diagnose
@@ -10,7 +12,8 @@ CONTROLS = {"091_092": ("run_091", "run_092"), "016_017": ("run_016", "run_017")
 RUNS = {run: diagnose("--robot=robot.urdf", f"--reference={a}.csv.gz",
                       f"--log={b}.csv.gz")
         for run, (a, b) in {**PAIRS, **CONTROLS}.items()}
-FRICTION = {"viscous_friction", "coulomb_friction", "thermal_friction", "friction"}
+FRICTION = {"viscous_friction", "coulomb_friction", "thermal_friction",
+            "viscous_friction_of_all_joints", "friction"}
 
 
 def named_of(run):
@@ -24,7 +27,8 @@ def named_of(run):
 def headline_of(run):
     def check(runs):
         first = runs[run]["sentence"]
-        return "friction has changed" in first.lower(), first[:110]
+        said = r"friction has changed|changed since the reference: [^;,.]*friction"
+        return bool(re.search(said, first.lower())), first[:110]
     check.__doc__ = f"{run}: the first sentence says that friction changed"
     return check
 

@@ -11,7 +11,8 @@ FREE = ["id_20s", "id_30s", "id_40s", "val_ptp"]
 PUSHED = ["push_contact_1", "push_contact_2"]
 RUNS = {log: diagnose(*COMMON, "--reference=id_50s.csv", f"--log={log}.csv")
         for log in FREE + PUSHED}
-FRICTION = {"viscous_friction", "coulomb_friction", "thermal_friction", "friction"}
+FRICTION = {"viscous_friction", "coulomb_friction", "thermal_friction",
+            "viscous_friction_of_all_joints", "friction"}
 
 
 def pushed_of(run):

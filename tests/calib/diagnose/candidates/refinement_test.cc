@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/fixtures/effect_arm.h"
 #include "tests/fixtures/gap_segment.h"
@@ -105,6 +106,23 @@ TEST_F(GapRefinementTest, SignsHold) {
   const RefinedEffects refined = Refine(stribeck, 1, Eigen::Vector2d(.2, .137));
   EXPECT_NEAR(refined.effects[0].p[0], 0, 1e-3);
   EXPECT_EQ(refined.covariance(0, 0), 0);
+}
+
+// A law that runs away is no explanation, and no error either.
+TEST_F(GapRefinementTest, ATorqueThatIsNotFiniteExplainsLessThanNothing) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  const Effect& viscous = *FindEffect("viscous_friction");
+  Effect burning = viscous;
+  burning.apply = [&](const EffectSite& site, const VectorXd&,
+                      SimulatedRobot* robot) {
+    viscous.apply(site, VectorXd::Constant(1, kInfinite), robot);
+  };
+  Record(viscous, 1, VectorXd::Constant(1, .5));
+  const RefinedEffects refined = Refine(burning, 1, VectorXd::Ones(1));
+  EXPECT_EQ(refined.delta_chi2, -kInfinite);
+  EXPECT_EQ(refined.effects[0].p[0], 1);
+  EXPECT_TRUE(refined.covariance.allFinite());
+  EXPECT_TRUE(refined.baseline.allFinite());
 }
 
 // chi^2 of 40 runs, three of its deviations.

@@ -46,6 +46,12 @@ class Swing {
     motion.qdd(k, joint) -= 2 * kJump / (kStep * kStep);
     return *this;
   }
+  // One that turns one way only.
+  Swing& Forward(int joint) {
+    segments_[0].motion.qd.col(joint) =
+        segments_[0].motion.qd.col(joint).cwiseAbs().eval();
+    return *this;
+  }
   const GapRows& rows() {
     if (!rows_) rows_.emplace(segments_, kBandwidth);
     return *rows_;
@@ -104,6 +110,21 @@ TEST(MotionRange, AJointsOwnMotionCountsAlone) {
   const double least = 4 * (std::sqrt(5.) - 1) / 2;
   EXPECT_NEAR(growth.col(1).minCoeff(), least, .05 * least);
   EXPECT_EQ(growth.col(2).maxCoeff(), 1);
+}
+
+// Of a joint that went forward only nothing is known of the way back; of one
+// that went both ways, and of one that rested, there is nothing to ask.
+TEST(MotionRange, KnowsTheWaysThatAJointMoved) {
+  Swing log({1, 1, 1}), reference({1, 1, 0});
+  reference.Forward(0);
+  const auto knows = MotionRange(reference.rows()).Knows(log.rows());
+  const Eigen::MatrixXd velocities =
+      log.rows().Pick(0, log.rows().segments()[0].motion.qd);
+  for (int k = 0; k < knows.rows(); ++k) {
+    EXPECT_EQ(knows(k, 0), velocities(k, 0) >= 0) << k;
+  }
+  EXPECT_TRUE(knows.col(1).all());
+  EXPECT_TRUE(knows.col(2).all());
 }
 
 }  // namespace armcal::motion_range_test

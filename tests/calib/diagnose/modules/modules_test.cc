@@ -87,9 +87,11 @@ TEST(Modules, HoldAllButTheseLaws) {
   for (const Effect& effect : Effects()) {
     if (!effect.numbers) others.push_back(effect.name);
   }
-  EXPECT_THAT(others, ElementsAre("armature", "link_length", "base_tilt",
-                                  "payload", "added_mass", "link_inertia",
-                                  "external_contact", "time_base"));
+  EXPECT_THAT(others,
+              ElementsAre("armature", "torque_gain_of_all_joints",
+                          "link_length", "base_tilt", "payload", "added_mass",
+                          "link_inertia", "viscous_friction_of_all_joints",
+                          "external_contact", "time_base"));
 }
 
 // One joint has a spring, and all others at once whatever fits; commands lag.

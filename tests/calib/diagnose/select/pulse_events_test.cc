@@ -1,0 +1,83 @@
+#include "calib/diagnose/select/pulse_events.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "calib/diagnose/data/thresholds.h"
+
+namespace armcal::pulse_events_test {
+
+constexpr double kDuration = 30, kStep = .01, kBandwidth = 10;
+
+// Joints that turn forward all the time.
+class PulseEvents : public testing::Test {
+ protected:
+  PulseEvents() {
+    const int size = static_cast<int>(kDuration / kStep);
+    GapSegment segment;
+    segment.motion.dt = kStep;
+    segment.motion.q.setZero(size, 2);
+    segment.motion.qd.setOnes(size, 2);
+    segment.motion.qdd.setZero(size, 2);
+    segment.tau.setZero(size, 2);
+    segment.still.setZero(size, 2);
+    segments_ = {segment};
+    rows_ = std::make_unique<GapRows>(segments_, kBandwidth);
+  }
+
+  // Of this torque on a joint, so many of a width each that all take `time`.
+  static std::vector<GapEvent> Pulses(int joint, int count, double torque,
+                                      double time) {
+    std::vector<GapEvent> events;
+    for (int k = 0; k < count; ++k) {
+      GapEvent event;
+      event.pulse = true;
+      Contact& contact = event.contact;
+      contact.joint = joint;
+      contact.time = (k + .5) * kDuration / count;
+      contact.torque = Eigen::Vector2d::Zero();
+      contact.torque[joint] = torque;
+      const double reach = Limits().event_reach * time / count / 2;
+      contact.window = {contact.time - reach, contact.time + reach};
+      events.push_back(event);
+    }
+    return events;
+  }
+  std::vector<int> JointsLeft(std::vector<GapEvent> events,
+                              const std::vector<GapEvent>& more) const {
+    events.insert(events.end(), more.begin(), more.end());
+    DropSpoilt(*rows_, &events);
+    std::vector<int> joints;
+    for (const GapEvent& event : events) joints.push_back(event.contact.joint);
+    return joints;
+  }
+
+  std::vector<GapSegment> segments_;
+  std::unique_ptr<GapRows> rows_;
+};
+
+TEST_F(PulseEvents, FrictionThatComesAndGoesOnOneJointHidesNoPushOnAnother) {
+  const std::vector<GapEvent> push = Pulses(0, 1, -30, .5);
+  EXPECT_EQ(JointsLeft(push, Pulses(1, 6, -1, 3)), std::vector<int>{0});
+  // Two that brake may be pushes, and so may six of which some help.
+  EXPECT_EQ(JointsLeft(push, Pulses(1, 2, -1, 1)).size(), 3u);
+  std::vector<GapEvent> both_ways = Pulses(1, 6, -1, 3);
+  both_ways[3].contact.torque[1] = 1;
+  EXPECT_EQ(JointsLeft(push, both_ways).size(), 7u);
+}
+
+TEST_F(PulseEvents, WhatLastsOnOneJointIsNoPushThere) {
+  const std::vector<GapEvent> push = Pulses(0, 1, -30, .5);
+  EXPECT_EQ(JointsLeft(push, Pulses(1, 3, 1, .4 * kDuration)),
+            std::vector<int>{0});
+}
+
+TEST_F(PulseEvents, WhatAllJointsHaveMostOfTheTimeIsNoPush) {
+  EXPECT_TRUE(JointsLeft(Pulses(0, 3, 1, .2 * kDuration),
+                         Pulses(1, 3, 1, .2 * kDuration))
+                  .empty());
+}
+
+}  // namespace armcal::pulse_events_test
