@@ -126,6 +126,9 @@ struct Effect {
   // rotor's inertia): a file may have it wrong, but it is the same in all logs
   // of one arm unless somebody rebuilt it.
   bool of_construction = false;
+  // Whether 1 + its first estimate is a factor of recorded torque, or of a part
+  // of it: known no better than the torque's scale is.
+  bool estimates_a_factor = false;
   // What a clock that runs at another rate than time is reported as. Exactly
   // one is.
   bool is_clock = false;

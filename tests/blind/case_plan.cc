@@ -9,9 +9,9 @@
 namespace armcal {
 namespace {
 
-// Cases of the evaluation. One effect: each of the 33 nine times, of which two
+// Cases of the evaluation. One effect: each of the 35 nine times, of which two
 // below ENR 0.32 and one more than the six that it needs above.
-constexpr std::array<long, kNumStrata> kCases = {150, 60, 33 * 9, 60, 60};
+constexpr std::array<long, kNumStrata> kCases = {150, 60, 35 * 9, 60, 60};
 // The bins of an effect's nine cases: about log-uniform from 0.17 to 6. They
 // begin elsewhere for each effect, so that every round has all bins.
 constexpr std::array<int, 9> kBins = {2, 3, 1, 4, 2, 3, 1, 4, 2};
@@ -81,11 +81,13 @@ CasePlan PlanCase(Stratum stratum, uint32_t k) {
     plan.excitation = PoorExcitation(k);
     return plan;
   }
-  if (k % kPoorEvery == kPoorEvery - 1) {
-    plan.excitation = PoorExcitation(k / kPoorEvery);
-  }
   const auto kinds = Kinds(stratum != Stratum::kOutside);
   const uint32_t effect = k % kinds.size();
+  // Of another effect in every round, where their number is a multiple of 5.
+  const uint32_t turn = k + static_cast<uint32_t>(k / kinds.size());
+  if (turn % kPoorEvery == kPoorEvery - 1) {
+    plan.excitation = PoorExcitation(turn / kPoorEvery);
+  }
   plan.effect = kinds[effect];
   if (stratum == Stratum::kOne) {
     const uint32_t round = k / kinds.size();

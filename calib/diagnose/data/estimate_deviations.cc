@@ -18,8 +18,10 @@ double WithTorqueScale(double stddev, double value, const std::string& unit,
 // the gradient J, and var f = J C J'. J is taken by forward differences, a step
 // of 1e-4 of a parameter's deviation, since estimates are laws' own formulas.
 // What the torque constants have of uncertainty comes on top, as a share of
-// estimates that hold a mass. An estimate of which nothing tells has the
-// deviation 0, which reports leave out.
+// estimates that hold a mass, and of factors of the torque itself: magnets lose
+// .1 (neodymium) to .2 % (ferrite) of their field per kelvin, so that from log
+// to log a drive's gain differs by itself as its motor warms. An estimate of
+// which nothing tells has the deviation 0, which reports leave out.
 std::vector<double> EstimateDeviations(const Effect& effect,
                                        const EffectSite& site,
                                        const VectorXd& p,
@@ -41,10 +43,15 @@ std::vector<double> EstimateDeviations(const Effect& effect,
   std::vector<double> stddev;
   for (size_t k = 0; k < estimates.size(); ++k) {
     const double own = std::sqrt(std::max(variance[k], 0.));
-    // What nothing tells of has no deviation.
-    stddev.push_back(own > 0 ? WithTorqueScale(own, estimates[k].value,
-                                               estimates[k].unit, scale_stddev)
-                             : 0);
+    const double value = estimates[k].value;
+    if (!(own > 0)) {
+      stddev.push_back(0);  // nothing tells of it
+    } else if (k == 0 && effect.estimates_a_factor) {
+      stddev.push_back(std::hypot(own, scale_stddev * (1 + value)));
+    } else {
+      stddev.push_back(
+          WithTorqueScale(own, value, estimates[k].unit, scale_stddev));
+    }
   }
   return stddev;
 }

@@ -39,6 +39,7 @@ Effect TorqueGainOfAllJoints() {
     }
   };
   effect.unfit = WhyNotOfSeveral;
+  effect.estimates_a_factor = true;
   effect.plausible = IsOfAMotorConstant;
   effect.if_joints_disagree = "gains of single drives";
   effect.experiment = "a known payload, held and moved";

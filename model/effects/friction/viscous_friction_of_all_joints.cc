@@ -43,6 +43,7 @@ Effect ViscousFrictionOfAllJoints() {
     for (Link& link : robot->robot.links) link.joint.viscous *= 1 + p[0];
   };
   effect.unfit = WhyNotShared;
+  effect.estimates_a_factor = true;
   effect.plausible = IsOfTemperature;
   effect.if_joints_disagree =
       "friction of single joints (wear, a seal), or joints of which not all "

@@ -165,11 +165,14 @@ HiddenEffect ViscousFrictionOfAllJoints() {
         std::mt19937_64 random =
             site.RandomInTime("viscous_friction_of_all_joints");
         std::uniform_real_distribution<double> share(.9, 1.1);
+        double sum = 0;
         for (int j = 0; j < site.num_driven(); ++j) {
           EffectSite at = site;
           at.joint = j;
           const double viscous = at.link().joint.viscous;
-          const double more = viscous * change(share(random) * site.p[0]);
+          const double of_joint = change(share(random) * site.p[0]);
+          sum += of_joint;
+          const double more = viscous * of_joint;
           const double S = at.speed();
           const int k = at.from_tip();
           at.AddFriction(
@@ -178,7 +181,7 @@ HiddenEffect ViscousFrictionOfAllJoints() {
                 return -more * v / (1 + std::abs(v) / (20 * S));
               });
         }
-        return {{"share", "1", change(site.p[0])}};
+        return {{"share", "1", sum / site.num_driven()}};
       },
       [](const SimulatedRobot& robot, int) -> std::string {
         int viscous = 0;
