@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
