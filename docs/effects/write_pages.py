@@ -110,11 +110,6 @@ def needed(text):
     return ["", line]
 
 
-# `compared = false` in effects.toml: added since tests/blind/equivalents.json was written.
-NOT_COMPARED = ("Which other effects leave nearly the same torque on an ordinary motion has not been "
-                "computed for it yet.")
-
-
 def kin(name, others, names):
     """What an ordinary motion does not tell it from."""
     if name not in others:
@@ -154,7 +149,7 @@ def page(name, text, figures_of, others, names):
         "", "## In the residual", "", text["residual"], "",
         "## When it is visible", "", text["visible"], *needed(text), "",
         "## What it is taken for", "", text["tell"], "",
-        kin(name, others, names) if text.get("compared", True) else NOT_COMPARED, "",
+        kin(name, others, names), "",
         "## How well it is recognised", "", recognised(name, figures_of), "",
         "## In simulators", "", simulators(name, text), "",
         f"Try it: `armcal simulate --robot=data/six_axis/real.yaml --run=1 --effects=\""
