@@ -12,29 +12,30 @@
 namespace armcal {
 namespace {
 
-// What probabilities of effects are worth in words.
+// What a probability is worth in words: one of three, as it falls.
+const char* InWords(double probability, const char* sure, const char* likely,
+                    const char* possible) {
+  if (IsConfident(probability)) return sure;
+  return probability > Limits().likely ? likely : possible;
+}
+
 const char* Lacks(double least_probability) {
-  if (IsConfident(least_probability)) return "lacks";
-  return least_probability > Limits().likely ? "probably lacks" : "may lack";
+  return InWords(least_probability, "lacks", "probably lacks", "may lack");
 }
 
 // The same of changes since a reference, up to their list.
 std::string Changed(double least_probability, const GapDiagnosis& diagnosis) {
-  const char* const changed = IsConfident(least_probability) ? "Changed"
-                              : least_probability > Limits().likely
-                                  ? "Probably changed"
-                                  : "May have changed";
-  return changed + (" since " + SinceWhat(diagnosis)) + ": ";
+  return InWords(least_probability, "Changed", "Probably changed",
+                 "May have changed") +
+         (" since " + SinceWhat(diagnosis)) + ": ";
 }
 
 // "Something probably touched the arm 2 times"
 std::string Touched(double probability, size_t times) {
-  const char* const touched = IsConfident(probability) ? " touched"
-                              : probability > Limits().likely
-                                  ? " probably touched"
-                                  : " may have touched";
-  return std::string("Something") + touched + " the arm " +
-         (times == 1 ? "once" : std::to_string(times) + " times");
+  return std::string("Something ") +
+         InWords(probability, "touched", "probably touched",
+                 "may have touched") +
+         " the arm " + (times == 1 ? "once" : std::to_string(times) + " times");
 }
 
 // Effects in a sentence, and how certain the least certain is.

@@ -82,15 +82,14 @@ CasePlan PlanCase(Stratum stratum, uint32_t k) {
     return plan;
   }
   const auto kinds = Kinds(stratum != Stratum::kOutside);
-  const uint32_t effect = k % kinds.size();
+  const uint32_t effect = k % kinds.size(), round = k / kinds.size();
   // Of another effect in every round, where their number is a multiple of 5.
-  const uint32_t turn = k + static_cast<uint32_t>(k / kinds.size());
+  const uint32_t turn = k + round;
   if (turn % kPoorEvery == kPoorEvery - 1) {
     plan.excitation = PoorExcitation(turn / kPoorEvery);
   }
   plan.effect = kinds[effect];
   if (stratum == Stratum::kOne) {
-    const uint32_t round = k / kinds.size();
     plan.lowest_bin = plan.highest_bin = kBins[(round + effect) % kBins.size()];
   }
   return plan;

@@ -46,10 +46,15 @@ def delay(log, size, _robot):
     return 0
 
 
-def gain(log, size, _robot):
+def strengthen(log, j, size):
     """A drive that gives `size` percent more per unit of command: the same motion by less."""
-    j = busiest(log)
     log.columns[log.torque][j] = [x / (1 + size / 100) for x in log.columns[log.torque][j]]
+
+
+def gain(log, size, _robot):
+    """One drive so."""
+    j = busiest(log)
+    strengthen(log, j, size)
     return j + 1
 
 
@@ -57,8 +62,8 @@ def scale_all(log, size, _robot):
     """All drives so. None of fewer than three, which are not asked for it."""
     if sum(scale(log, j) > 0 for j in range(log.joints)) < 3:
         return None
-    log.columns[log.torque] = [[x / (1 + size / 100) for x in column]
-                               for column in log.columns[log.torque]]
+    for j in range(log.joints):
+        strengthen(log, j, size)
     return 0
 
 

@@ -61,11 +61,12 @@ Eigen::ArrayXd LargestRatio(const MatrixXd& all, const VectorXd& range) {
 }  // namespace
 
 MotionRange::MotionRange(const GapRows& rows)
-    : speeds_(UsualLargest(rows, Speeds(rows))),
-      accelerations_(UsualLargest(rows, Accelerations(rows))) {
+    : accelerations_(UsualLargest(rows, Accelerations(rows))) {
   const MatrixXd velocities = Velocities(rows);
+  const MatrixXd speeds = velocities.cwiseAbs();
+  speeds_ = UsualLargest(rows, speeds);
   forward_ = velocities.cwiseMax(0.).colwise().sum().cwiseQuotient(
-      velocities.cwiseAbs().colwise().sum());
+      speeds.colwise().sum());
 }
 
 Eigen::ArrayXd MotionRange::Growth(const GapRows& rows) const {
@@ -86,10 +87,9 @@ Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> MotionRange::Knows(
   for (int j = 0; j < velocities.cols(); ++j) {
     const bool back = !(1 - forward_[j] < least),
                ahead = !(forward_[j] < least);
-    knows.col(j) =
-        (velocities.col(j).array() < 0)
-            .select(Eigen::ArrayX<bool>::Constant(velocities.rows(), back),
-                    Eigen::ArrayX<bool>::Constant(velocities.rows(), ahead));
+    for (int k = 0; k < velocities.rows(); ++k) {
+      knows(k, j) = velocities(k, j) < 0 ? back : ahead;
+    }
   }
   return knows;
 }

@@ -13,7 +13,13 @@ namespace {
 using Draw = EffectParameter::Draw;
 using Scope = HiddenEffect::Scope;
 
-constexpr double kVogel = 120;  // K, from 25 deg C down to Vogel's pole
+// ln of what a lubricant's viscosity is multiplied by where it is dT kelvin
+// warmer than 25 deg C, by Vogel's law (1921), of which beta is the slope
+// there.
+double VogelExponent(double beta, double dT) {
+  constexpr double kVogel = 120;  // K, from 25 deg C down to the pole
+  return -beta * dT * kVogel / (kVogel + dT);
+}
 
 // tau = -mu (sqrt(load^2 + P^2) - P) sign(v): teeth preloaded by P, 0.2 of the
 // joint's torque scale, feel small loads little.
@@ -130,7 +136,7 @@ HiddenEffect ThermalFriction() {
         site.AddFriction([=](const ArmInstant& at, const double*, double*) {
           const double v = FromTip(at.velocity, k);
           const double dT = FromTip(at.temperature, k);
-          const double warm = -beta * dT * kVogel / (kVogel + dT);
+          const double warm = VogelExponent(beta, dT);
           return -viscous * v * std::expm1(warm) -
                  coulomb * ZeroVelocitySign(v, w) * std::expm1(warm / 3);
         });
@@ -160,7 +166,7 @@ HiddenEffect ViscousFrictionOfAllJoints() {
        {"beta", "1/K", .025, .015, .035, Draw::kUniform, .002, .2}},
       [](const EffectSite& site) -> std::vector<EffectValue> {
         const auto change = [&](double dT) {
-          return std::expm1(-site.p[1] * dT * kVogel / (kVogel + dT));
+          return std::expm1(VogelExponent(site.p[1], dT));
         };
         std::mt19937_64 random =
             site.RandomInTime("viscous_friction_of_all_joints");
