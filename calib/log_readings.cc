@@ -2,10 +2,16 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "calib/inspect/inspection.h"
+#include "model/text/format.h"
 #include "model/text/input_error.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -36,10 +42,9 @@ bool IsTilt(const Robot& robot, const LogReading& reading) {
 
 // What cannot be read at all is refused where the log is opened for what it is
 // wanted for, which says more.
-std::vector<InspectionFinding> FindingsOf(const Robot& robot,
-                                          const LogSource& log,
-                                          const LogReaderOptions& options,
-                                          int most_rows) {
+std::optional<LogInspection> Inspected(const Robot& robot, const LogSource& log,
+                                       const LogReaderOptions& options,
+                                       int most_rows) {
   try {
     LogInspection inspection = InspectLog(
         robot, log, options, 0, most_rows > 0 ? most_rows : kMostInspectedRows);
@@ -48,10 +53,53 @@ std::vector<InspectionFinding> FindingsOf(const Robot& robot,
           [](const InspectionFinding& f) { return f.finding == "gravity"; },
           &inspection.findings);
     }
-    return inspection.findings;
+    return inspection;
   } catch (const InputError&) {
     return {};
   }
+}
+
+// How many times what the robot's links need a log's torques are: from the
+// lowest to the highest that the 95 % intervals of its joints hold.
+struct ScaleRange {
+  int joints = 0;
+  double low = INFINITY, high = 0;
+};
+
+ScaleRange RangeOf(const TorqueScales& scales) {
+  ScaleRange range;
+  for (int j = 0; j < scales.scale.size(); ++j) {
+    if (!scales.told(j) || !(scales.low[j] > 0)) continue;
+    ++range.joints;
+    range.low = std::min(range.low, scales.low[j]);
+    range.high = std::max(range.high, scales.high[j]);
+  }
+  return range;
+}
+
+// All joints of one log have to be beyond all of the other's by more than
+// kNotLoad, the factor by which no file's inertias are off in all links at once
+// (torque_unit.cc). Two joints at least, since a load may be several times a
+// single joint's link.
+std::vector<DataFinding> OtherUnits(const LogSource& log,
+                                    const TorqueScales& scales,
+                                    const LogSource& other,
+                                    const TorqueScales& others) {
+  constexpr double kNotLoad = 4;
+  const ScaleRange own = RangeOf(scales), its = RangeOf(others);
+  const bool is_other =
+      own.low > kNotLoad * its.high || own.high < its.low / kNotLoad;
+  const bool is_told =
+      own.joints > 0 && its.joints > 0 && std::max(own.joints, its.joints) > 1;
+  if (!is_told || !is_other) return {};
+  return {{"the torques of " + log.name + " and of " + other.name +
+               " are not in one unit",
+           Format("%.3g to %.3g times what the robot's links need, and %.3g to "
+                  "%.3g times (95 %%)",
+                  own.low, own.high, its.low, its.high),
+           "log both alike, or name the unit behind a column's name, as tau1 "
+           "[mNm]",
+           true}};
 }
 
 bool Counts(const std::string& finding, const ReadingQuestions& questions) {
@@ -66,13 +114,21 @@ std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,
                                        const ReadingQuestions& questions) {
-  std::vector<std::vector<InspectionFinding>> findings(logs.size());
+  std::vector<std::optional<LogInspection>> inspected(logs.size());
   tbb::parallel_for(size_t{0}, logs.size(), [&](size_t k) {
-    findings[k] = FindingsOf(robot, logs[k], options, questions.most_rows);
+    inspected[k] = Inspected(robot, logs[k], options, questions.most_rows);
   });
   std::vector<DataFinding> wrong;
   for (size_t k = 0; k < logs.size(); ++k) {
-    for (const InspectionFinding& found : findings[k]) {
+    if (!inspected[k]) continue;
+    if (!questions.scales && inspected[0]) {
+      for (DataFinding& found :
+           OtherUnits(logs[k], inspected[k]->torque_scales, logs[0],
+                      inspected[0]->torque_scales)) {
+        wrong.push_back(std::move(found));
+      }
+    }
+    for (const InspectionFinding& found : inspected[k]->findings) {
       if (!Counts(found.finding, questions)) continue;
       wrong.push_back({"of " + logs[k].name + " " + found.sentence,
                        found.evidence, "armcal inspect: " + found.remedy,

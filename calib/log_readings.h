@@ -24,7 +24,8 @@ struct ReadingQuestions {
 // tilted (InspectLog). Whatever fits them then is no effect, however
 // well it fits. Each leads a diagnosis. What only scales torques is not among
 // them where `scales` is false: a reference that was recorded alike has it,
-// too.
+// too. Then logs are held against the first of them: torques that are several
+// times as large on all joints are in another unit.
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,

@@ -84,12 +84,40 @@ std::string Others(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   return text;
 }
 
+// Of numbers that each joint has, those whose 95 % interval holds 0 are left
+// out, and only named: this motion does not tell them. All stay where none is
+// told.
+std::string Numbers(const std::string& title, const FoundEffect& found) {
+  constexpr double kInterval = 1.96;
+  FoundEffect told = found;
+  std::vector<std::string> untold;
+  if (found.missing_term || found.of_another_day) {
+    told.estimates.clear();
+    told.stddev.clear();
+    for (size_t k = 0; k < found.estimates.size(); ++k) {
+      const EffectEstimate& one = found.estimates[k];
+      if (std::abs(one.value) < kInterval * found.stddev[k]) {
+        if (!untold.empty()) untold.back() += ",";
+        untold.push_back(one.name);
+      } else {
+        told.estimates.push_back(one);
+        told.stddev.push_back(found.stddev[k]);
+      }
+    }
+  }
+  if (told.estimates.empty() || untold.empty()) {
+    return Wrapped(title, EstimateTexts(found));
+  }
+  return Wrapped(title, EstimateTexts(told)) +
+         Wrapped("         not told by this motion:", untold);
+}
+
 std::string EffectLines(const FoundEffect& found,
                         const GapDiagnosis& diagnosis) {
   std::string text =
-      Wrapped(Format("  %3.0f %%  ", 100 * found.probability) +
+      Numbers(Format("  %3.0f %%  ", 100 * found.probability) +
                   NameOf(*found.effect, found.joint, diagnosis) + ":",
-              EstimateTexts(found));
+              found);
   for (const Contact& contact : found.contacts) {
     const JointGap& joint = diagnosis.joints[contact.joint];
     text +=

@@ -13,6 +13,7 @@
 namespace armcal::log_readings_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class LogReadingsTest : public testing::Test {
  protected:
@@ -67,6 +68,20 @@ TEST_F(LogReadingsTest, GravityThatIsTurnedIsOfAnotherArm) {
 TEST_F(LogReadingsTest, AScaleMayBeTheReferencesToo) {
   EXPECT_EQ(Wrong(milli_, true).size(), 1u);
   EXPECT_TRUE(Wrong(milli_, false).empty());
+}
+
+// Which of the two it is, none tells.
+TEST_F(LogReadingsTest, AReferenceInAnotherUnitIsTold) {
+  for (const bool is_reference : {false, true}) {
+    const DiagnoseSummary summary = is_reference ? Diagnosis(arm_.log, &milli_)
+                                                 : Diagnosis(milli_, &arm_.log);
+    EXPECT_EQ(summary.verdict, "not_testable");
+    EXPECT_THAT(summary.brief, HasSubstr("are not in one unit"));
+    EXPECT_THAT(summary.brief, HasSubstr("reference.csv"));
+  }
+  Log loaded = arm_.log;
+  loaded.tau *= 2;
+  EXPECT_THAT(Diagnosis(loaded, &arm_.log).brief, Not(HasSubstr("unit")));
 }
 
 // Degrees would be friction and a clock of another rate.

@@ -39,35 +39,27 @@ MatrixXd Unforeseen(const GapData& data, const GapRows& rows) {
 
 // By which factor the residual of samples that a fit has not seen is larger
 // than of those that it has, each joint for itself: leave-one-out
-// cross-validation over the reference's parts, a ratio of root mean squares
-// that is 1 or more. Between whole logs it is taken over all of them, which is
-// what another log of such motion will have; between thirds of one log it is
-// the worst, since motion elsewhere is less alike than these thirds are.
+// cross-validation over the reference's parts, whole logs or the thirds of a
+// single one, as a ratio of root mean squares over all of them that is 1 or
+// more.
 VectorXd GrowthOfUnseen(const std::vector<GapSegment>& segments,
                         const GapData& all,
                         const std::vector<Autoregression>& noise,
                         const MatrixXd& seen) {
-  const std::vector<ReferenceFold> folds = FoldsOf(segments);
-  MatrixXd before = MatrixXd::Zero(seen.cols(), folds.size()), after = before;
-  for (size_t f = 0; f < folds.size(); ++f) {
+  VectorXd before = VectorXd::Zero(seen.cols()), after = before;
+  for (const ReferenceFold& fold : FoldsOf(segments)) {
     GapData others(all, LogPart());
     others.SetNoise(noise);
-    const std::vector<int> left_out = LeaveOut(segments, folds[f], &others);
+    const std::vector<int> left_out = LeaveOut(segments, fold, &others);
     others.SetNoise(noise);
     const MatrixXd unseen = Moving(all.rows(), Unforeseen(others, all.rows()));
-    before.col(f) = seen(left_out, Eigen::all).colwise().squaredNorm();
-    after.col(f) = unseen(left_out, Eigen::all).colwise().squaredNorm();
-  }
-  if (folds[0].log >= 0) {
-    before = before.rowwise().sum().eval();
-    after = after.rowwise().sum().eval();
+    before += seen(left_out, Eigen::all).colwise().squaredNorm();
+    after += unseen(left_out, Eigen::all).colwise().squaredNorm();
   }
   VectorXd grows = VectorXd::Ones(seen.cols());
   for (int j = 0; j < grows.size(); ++j) {
-    for (Eigen::Index f = 0; f < before.cols(); ++f) {
-      if (!(before(j, f) > 0)) continue;
-      grows[j] = std::max(grows[j], std::sqrt(after(j, f) / before(j, f)));
-    }
+    if (!(before[j] > 0)) continue;
+    grows[j] = std::max(1., std::sqrt(after[j] / before[j]));
   }
   return grows;
 }
