@@ -57,7 +57,7 @@ class Inspector {
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
     if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
     result_.jumps = FindPositionJumps(robot_, log_);
-    MendJumps(result_.jumps.joints, &log_);
+    MendJumps(result_.jumps, &log_);
     result_.findings = AuditChannels(robot_, log_, result_.stamps);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
@@ -322,7 +322,7 @@ LogInspection InspectLog(const Robot& robot, const LogSource& log,
 Log Mended(const Robot& robot, const Log& recorded,
            const LogInspection& inspection) {
   Log log = recorded;
-  MendJumps(inspection.jumps.joints, &log);
+  MendJumps(inspection.jumps, &log);
   log.t = inspection.rebuilds_time ? inspection.clock.t
                                    : (inspection.stamps.unit * log.t).eval();
   const std::vector<bool> opposite = OppositeVelocities(log);
