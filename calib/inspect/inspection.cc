@@ -42,6 +42,11 @@ class Inspector {
     result_.torque_source = reader.torque_source();
     result_.unscaled = reader.unscaled_drives();
     result_.rows = log_.size();
+    torque_units_ = options.torque_constants;
+    for (size_t j = 0;
+         j < std::min(torque_units_.size(), options.gear_ratios.size()); ++j) {
+      torque_units_[j] *= options.gear_ratios[j];
+    }
     if (log_.size() < 3) {
       throw InputError(log.name, "", std::to_string(log_.size()) + " rows",
                        "expected at least 3");
@@ -58,7 +63,8 @@ class Inspector {
     if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
     result_.jumps = FindPositionJumps(robot_, log_);
     MendJumps(result_.jumps, &log_);
-    result_.findings = AuditChannels(robot_, log_, result_.stamps);
+    result_.findings =
+        AuditChannels(robot_, log_, result_.stamps, torque_units_);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
     AddUnscaled();
@@ -309,6 +315,7 @@ class Inspector {
   const Robot& robot_;
   LogInspection result_;
   Log log_;
+  std::vector<double> torque_units_;  // of currents or voltages, N m
 };
 
 }  // namespace
