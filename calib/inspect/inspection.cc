@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/joint_zero.h"
 #include "calib/inspect/jump_findings.h"
 #include "calib/inspect/position_unit.h"
 #include "calib/inspect/reading_text.h"
@@ -214,6 +215,12 @@ class Inspector {
     const WiringSamples samples =
         SamplesAs(found.reading, robot_, series, kSamples);
     result_.torque_scales = TorqueScale(robot, samples);
+    // What is wrong with the log would be asked of the file's bodies, too.
+    if (result_.as_it_is) {
+      const auto zeros = DoubtJointZeros(robot, samples);
+      result_.findings.insert(result_.findings.end(), zeros.begin(),
+                              zeros.end());
+    }
     const auto units = FindTorqueUnits(robot, samples, result_.torque_scales);
     result_.findings.insert(result_.findings.end(), units.begin(), units.end());
   }
