@@ -14,15 +14,15 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kTurnsOver = .03;  // rad/s or m/s
-constexpr double kLeastOfRms = .2;  // of a joint's rms speed, as TorqueFit
-constexpr int kLeastRows = 40;      // of a joint, of some hundred
+constexpr double kTurnsOver = .03;   // rad/s or m/s
+constexpr double kMovingOfRms = .2;  // of a joint's rms speed, as TorqueFit
+constexpr int kLeastRows = 40;       // of a joint, of some hundred
 // Nats that the other hypotheses of an arm, some fifty, have to be beaten by:
 // e^-15 is one in 60000 logs, were the noise all there is.
 constexpr double kLeastNats = 15;
 // Of squares of the joint's own torque: what is told explains more than it
 // leaves, as of all readings (held_out_fit.h).
-constexpr double kMostLeft = .5;
+constexpr double kMostOfSquares = .5;
 // Times what the file's links need, as which a torque is still told to be these
 // links': a reversed elbow of a ViperX-300 has .6 to 1.1 under what would mend
 // it; the links of ../shared/data/dvrk_psm, whose counterweight its file lacks,
@@ -60,7 +60,7 @@ class FreedTorque {
  public:
   FreedTorque(const WiringSamples& samples, int j) {
     const VectorXd qd = samples.motion.qd.col(j);
-    const double least = kLeastOfRms * qd.norm() / std::sqrt(qd.size());
+    const double least = kMovingOfRms * qd.norm() / std::sqrt(qd.size());
     for (Eigen::Index k = 0; k < qd.size(); ++k) {
       if (std::abs(qd[k]) > least) rows_.push_back(static_cast<int>(k));
     }
@@ -113,9 +113,9 @@ double IndependentSamples(const VectorXd& x) {
   return static_cast<double>(n) * (1 - r) / (1 + r);
 }
 
-class Comparison {
+class ZeroComparison {
  public:
-  Comparison(const Robot& robot, const WiringSamples& samples)
+  ZeroComparison(const Robot& robot, const WiringSamples& samples)
       : robot_(robot), samples_(samples) {
     const MatrixXd needed = NeededTorques(robot, samples.motion, {});
     for (int j = 0; j < robot.num_joints(); ++j) {
@@ -160,18 +160,18 @@ class Comparison {
 // A hypothesis that is clearly better than the file as it is.
 struct Better {
   Hypothesis hypothesis;
-  Comparison::Result result;
+  ZeroComparison::Result result;
 };
 
-bool IsBelievable(const Comparison::Result& result) {
-  return result.gain > kLeastNats && result.own < kMostLeft &&
+bool IsBelievable(const ZeroComparison::Result& result) {
+  return result.gain > kLeastNats && result.own < kMostOfSquares &&
          result.multiple < kMostMultiple && result.multiple * kMostMultiple > 1;
 }
 
 // The best first.
 std::vector<Better> FindBetter(const Robot& robot,
                                const WiringSamples& samples) {
-  const Comparison comparison(robot, samples);
+  const ZeroComparison comparison(robot, samples);
   std::vector<Better> all;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const bool turns = IsRotational(robot.links[j].joint.type);
@@ -179,7 +179,7 @@ std::vector<Better> FindBetter(const Robot& robot,
       for (int quarters = turns ? -1 : 0; quarters <= (turns ? 2 : 0);
            ++quarters) {
         const Hypothesis h{j, sign, quarters};
-        const Comparison::Result result = comparison.Of(h);
+        const ZeroComparison::Result result = comparison.Of(h);
         if (IsBelievable(result)) all.push_back({h, result});
       }
     }
@@ -214,7 +214,7 @@ std::vector<InspectionFinding> DoubtJointZeros(const Robot& robot,
     sentence += (k > 0 ? ", or " : "") + robot.links[h.joint].joint.name + " " +
                 Phrase(h);
   }
-  const Comparison::Result& best = all[0].result;
+  const ZeroComparison::Result& best = all[0].result;
   return {{"joint_zero", sentence,
            Format("the file's own links, beside friction and an offset, leave "
                   "%.3g times as much of its torque so (%.0f nats in all "

@@ -12,8 +12,8 @@ constexpr size_t kMostExcursions = 64;  // of a joint, the fastest
 // Times the step past an excursion that the steps to it and from it are, and
 // times the rms velocity without all of them: a sine's greatest velocity is 1.4
 // times its rms, that of a sum of sines 3 to 4 times.
-constexpr double kFarther = 5;
-constexpr double kFaster = 8;
+constexpr double kFartherThanPast = 5;
+constexpr double kFasterThanRms = 8;
 
 }  // namespace
 
@@ -47,10 +47,11 @@ void MotionFrequency::FindExcursions(const Eigen::RowVectorXd& q, double t) {
     std::vector<Excursion>& all = excursions_[j];
     const double past = std::abs(to + from);
     const double x = last_[j] - first_[j];
-    if (std::min(std::abs(to), std::abs(from)) > kFarther * past) {
+    if (std::min(std::abs(to), std::abs(from)) > kFartherThanPast * past) {
       all.push_back({std::min(std::abs(to) / step_, std::abs(from) / step),
                      to * to / step_ + from * from / step, x, x * x});
-    } else if (count_ == 2 && std::abs(to) > kFarther * std::abs(from)) {
+    } else if (count_ == 2 &&
+               std::abs(to) > kFartherThanPast * std::abs(from)) {
       all.push_back({std::abs(to) / step_, to * to / step_, 0, 0});
     }
     if (all.size() <= kMostExcursions) continue;
@@ -70,7 +71,7 @@ double MotionFrequency::Hz() const {
     double rate = rate_[j], sum = sum_[j], square = square_[j];
     auto count = static_cast<double>(count_);
     for (const Excursion& e : excursions_[j]) {
-      if (!(e.speed > kFaster * usual)) continue;
+      if (!(e.speed > kFasterThanRms * usual)) continue;
       rate -= e.rate;
       sum -= e.x;
       square -= e.square;
