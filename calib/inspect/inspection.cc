@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/joint_zero.h"
 #include "calib/inspect/jump_findings.h"
 #include "calib/inspect/position_unit.h"
 #include "calib/inspect/reading_text.h"
@@ -42,6 +43,11 @@ class Inspector {
     result_.torque_source = reader.torque_source();
     result_.unscaled = reader.unscaled_drives();
     result_.rows = log_.size();
+    torque_units_ = options.torque_constants;
+    for (size_t j = 0;
+         j < std::min(torque_units_.size(), options.gear_ratios.size()); ++j) {
+      torque_units_[j] *= options.gear_ratios[j];
+    }
     if (log_.size() < 3) {
       throw InputError(log.name, "", std::to_string(log_.size()) + " rows",
                        "expected at least 3");
@@ -57,8 +63,9 @@ class Inspector {
     log_.t = (result_.stamps.unit * (log_.t.array() - log_.t[0])).eval();
     if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
     result_.jumps = FindPositionJumps(robot_, log_);
-    MendJumps(result_.jumps.joints, &log_);
-    result_.findings = AuditChannels(robot_, log_, result_.stamps);
+    MendJumps(result_.jumps, &log_);
+    result_.findings =
+        AuditChannels(robot_, log_, result_.stamps, torque_units_);
     const auto held = AuditHeldValues(robot_, log_);
     result_.findings.insert(result_.findings.end(), held.begin(), held.end());
     AddUnscaled();
@@ -208,6 +215,12 @@ class Inspector {
     const WiringSamples samples =
         SamplesAs(found.reading, robot_, series, kSamples);
     result_.torque_scales = TorqueScale(robot, samples);
+    // What is wrong with the log would be asked of the file's bodies, too.
+    if (result_.as_it_is) {
+      const auto zeros = DoubtJointZeros(robot, samples);
+      result_.findings.insert(result_.findings.end(), zeros.begin(),
+                              zeros.end());
+    }
     const auto units = FindTorqueUnits(robot, samples, result_.torque_scales);
     result_.findings.insert(result_.findings.end(), units.begin(), units.end());
   }
@@ -309,6 +322,7 @@ class Inspector {
   const Robot& robot_;
   LogInspection result_;
   Log log_;
+  std::vector<double> torque_units_;  // of currents or voltages, N m
 };
 
 }  // namespace
@@ -322,7 +336,7 @@ LogInspection InspectLog(const Robot& robot, const LogSource& log,
 Log Mended(const Robot& robot, const Log& recorded,
            const LogInspection& inspection) {
   Log log = recorded;
-  MendJumps(inspection.jumps.joints, &log);
+  MendJumps(inspection.jumps, &log);
   log.t = inspection.rebuilds_time ? inspection.clock.t
                                    : (inspection.stamps.unit * log.t).eval();
   const std::vector<bool> opposite = OppositeVelocities(log);

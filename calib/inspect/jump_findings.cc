@@ -1,5 +1,6 @@
 #include "calib/inspect/jump_findings.h"
 
+#include <algorithm>
 #include <string>
 
 #include "model/text/format.h"
@@ -28,6 +29,33 @@ InspectionFinding OfSpikes(const std::string& joint, int j,
               HowOften(spikes.size(), t[spikes[0].begin]) +
               Format(" by %.3g", spikes[0].size),
           FixWrites("with these on the line between the rows around"), j};
+}
+
+bool AreWithin(const PositionSpike& spike,
+               const std::vector<PositionSpike>& wrong_rows) {
+  return std::any_of(wrong_rows.begin(), wrong_rows.end(),
+                     [&](const PositionSpike& row) {
+                       return row.begin <= spike.begin && spike.end <= row.end;
+                     });
+}
+
+InspectionFinding OfWrongRows(const Eigen::VectorXd& t, const LogJumps& jumps) {
+  constexpr size_t kTold = 4;
+  long rows = 0;
+  std::string when;
+  for (size_t k = 0; k < jumps.wrong_rows.size(); ++k) {
+    const PositionSpike& wrong = jumps.wrong_rows[k];
+    rows += wrong.end - wrong.begin;
+    if (k > kTold) continue;
+    when += k == 0 ? " at " : ", ";
+    when += k == kTold ? ".." : Format("%.6g", t[wrong.begin]);
+  }
+  return {"wrong_rows", "rows of the log are not of its motion",
+          Format("%ld row%s at which positions of several joints are elsewhere "
+                 "at once,",
+                 rows, rows == 1 ? "" : "s") +
+              when + " s",
+          FixWrites("with these on the line between the rows around")};
 }
 
 InspectionFinding OfWraps(const std::string& joint, int j,
@@ -64,12 +92,16 @@ std::vector<InspectionFinding> JumpFindings(const Robot& robot,
                             HowOften(missing.size(), t[missing[0]]),
                         "cut the log there (" + OptionName("crop") + ")"});
   }
+  if (!jumps.wrong_rows.empty()) findings.push_back(OfWrongRows(t, jumps));
   for (size_t k = 0; k < jumps.joints.size(); ++k) {
     const int j = static_cast<int>(k);
     const std::string& joint = robot.links[k].joint.name;
     const PositionJumps& own = jumps.joints[k];
-    if (!own.spikes.empty())
-      findings.push_back(OfSpikes(joint, j, t, own.spikes));
+    std::vector<PositionSpike> alone;  // in which no other joint has one
+    for (const PositionSpike& spike : own.spikes) {
+      if (!AreWithin(spike, jumps.wrong_rows)) alone.push_back(spike);
+    }
+    if (!alone.empty()) findings.push_back(OfSpikes(joint, j, t, alone));
     if (!own.wraps.empty()) findings.push_back(OfWraps(joint, j, t, own.wraps));
     if (!own.steps.empty()) findings.push_back(OfSteps(joint, j, t, own.steps));
   }

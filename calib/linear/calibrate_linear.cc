@@ -205,7 +205,6 @@ LinearCalibration CalibrateLinear(const Robot& robot,
   LinearCalibration result =
       CalibrateWithoutOutliers(robot, options, rows, &prepared, &samples);
   result.preparation = prepared.options();
-  result.position_spikes = prepared.position_spikes();
   result.friction = prepared.friction();
   ++result.passes;  // the audit
   if (!result.solved) return result;
@@ -220,6 +219,9 @@ LinearCalibration CalibrateLinear(const Robot& robot,
                                   logs);
   };
   result.training = evaluate("residuals", prepared);
+  // The logs may have been prepared again, for the outliers found last, and are
+  // not gone through before that.
+  result.position_spikes = prepared.position_spikes();
   if (!samples) {
     samples.emplace(result.parameters, result.x, options.progress, prepared);
   }

@@ -210,10 +210,21 @@ void WarnOfNegative(const Robot& robot, const LinearCalibration& result,
   }
 }
 
+// Rows in which all joints leave their motion are one thing to say, not one for
+// each joint.
 void WarnOfSpikes(const Robot& robot, const LinearCalibration& result,
                   std::vector<std::string>* sentences) {
-  for (int i = 0; i < result.position_spikes.size(); ++i) {
-    const long rows = result.position_spikes[i];
+  const auto& spikes = result.position_spikes;
+  if (spikes.size() > 1 && spikes[0] > 0 && (spikes == spikes[0]).all()) {
+    const bool one = spikes[0] == 1;
+    sentences->push_back(Format(
+        "%ld wrong row%s left out, at which all joints leave their motion at "
+        "once; armcal inspect says when",
+        spikes[0], one ? " was" : "s were"));
+    return;
+  }
+  for (int i = 0; i < spikes.size(); ++i) {
+    const long rows = spikes[i];
     if (rows == 0) continue;
     sentences->push_back(
         robot.links[i].joint.name +

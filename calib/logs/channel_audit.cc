@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
-#include "calib/logs/stamp_hole.h"
 #include "calib/numerics/median.h"
 #include "model/text/format.h"
 #include "model/text/option_name.h"
@@ -17,19 +17,10 @@ using Eigen::VectorXd;
 
 constexpr double kMoving = .02;   // rad/s or m/s
 constexpr double kStuckTime = 1;  // s of motion
-constexpr double kLostShare = .1;
 constexpr double kAtLimit = .02;  // share of samples
 constexpr int kFewValues = 40;
 constexpr double kJump = 5;     // usual steps, of 1 s of motion that was missed
 constexpr double kQuanta = 10;  // of position, that a velocity goes through
-
-std::vector<double> Steps(const Log& log) {
-  std::vector<double> steps;
-  for (int k = 0; k + 1 < log.size(); ++k) {
-    steps.push_back(log.t[k + 1] - log.t[k]);
-  }
-  return steps;
-}
 
 // Positions' slope over a few steps around each sample.
 VectorXd SlopeOf(const Log& log, int j) {
@@ -56,13 +47,38 @@ double LongestConstant(const Log& log, const VectorXd& x,
   return longest;
 }
 
+// The step of which all values are whole numbers, to what six digits in the
+// file leave of it; 0: there is none.
+double StepOf(const std::set<double>& values) {
+  double step = std::numeric_limits<double>::infinity();
+  for (auto value = std::next(values.begin()); value != values.end(); ++value) {
+    step = std::min(step, *value - *std::prev(value));
+  }
+  const bool all = std::all_of(values.begin(), values.end(), [&](double value) {
+    constexpr double kWhole = .02;
+    const double steps = value / step;
+    return std::abs(steps - std::round(steps)) < kWhole;
+  });
+  return all ? step : 0;
+}
+
+bool IsPowerOfTen(double step) {
+  constexpr double kExact = 1e-3;  // of the exponent: .2 % of the step
+  const double exponent = std::log10(std::abs(step));
+  return std::abs(exponent - std::round(exponent)) < kExact;
+}
+
 class ChannelAudit {
  public:
-  ChannelAudit(const Robot& robot, const Log& log, const StampFigures& stamps)
-      : robot_(robot), log_(log), stamps_(stamps) {}
+  ChannelAudit(const Robot& robot, const Log& log, const StampFigures& stamps,
+               const std::vector<double>& torque_units)
+      : robot_(robot),
+        log_(log),
+        stamps_(stamps),
+        torque_units_(torque_units) {}
 
   std::vector<InspectionFinding> Run() {
-    AddTime();
+    findings_ = StampFindings(stamps_, log_.size());
     for (int j = 0; j < robot_.num_joints(); ++j) {
       const VectorXd slope = SlopeOf(log_, j);
       AddStuck(j, slope);
@@ -78,43 +94,6 @@ class ChannelAudit {
  private:
   std::string Name(const char* signal, int j) const {
     return std::string(signal) + " of " + robot_.links[j].joint.name;
-  }
-
-  void AddTime() {
-    if (stamps_.unit != 1) {
-      const char* name = stamps_.unit == 1e-3   ? "ms"
-                         : stamps_.unit == 1e-6 ? "us"
-                                                : "ns";
-      findings_.push_back(
-          {"time_unit", std::string("the time is in ") + name + ", not in s",
-           Format("steps of %.4g as logged: no arm is sampled every %.4g s",
-                  stamps_.step / stamps_.unit, stamps_.step / stamps_.unit),
-           std::string("name the column t[") + name + "]"});
-    }
-    const double coarse = static_cast<double>(stamps_.duplicates) /
-                          static_cast<double>(log_.size());
-    if (coarse > kLostShare) {
-      findings_.push_back(
-          {"coarse_stamps", "many rows have the time of the row before",
-           Format("%.0f %% of the rows, which are dropped", 100 * coarse),
-           "log the time with more digits"});
-    }
-    if (stamps_.lost_share > kLostShare) {
-      findings_.push_back(
-          {"lost_samples", "samples are missing between the others",
-           Format("%.0f %% of steps of %.4g ms are not there",
-                  100 * stamps_.lost_share, 1e3 * stamps_.step),
-           "log without losses; single losses are interpolated"});
-    }
-    if (stamps_.holes > 0) {
-      findings_.push_back(
-          {"holes", "the stamps have holes",
-           stamps_.holes == 1
-               ? Format("1 hole, of %.3g s", stamps_.hole_time)
-               : Format("%ld holes, %.3g s together, the longest %.3g s",
-                        stamps_.holes, stamps_.hole_time, stamps_.longest_gap),
-           "log without losses; the log is split there"});
-    }
   }
 
   // A column that does not change although the others of its joint do.
@@ -269,61 +248,34 @@ class ChannelAudit {
     findings_.push_back({"quantised", Name("torque", j) + " is coarse",
                          Format("%d different values in %d samples",
                                 static_cast<int>(values.size()), log_.size()),
-                         "log more digits", j});
+                         RemedyOfFewValues(values, j), j});
+  }
+
+  // Values that are rounded when they are written are whole numbers of a power
+  // of ten in the file's unit; those of any other step are the sensor's, and no
+  // digits of the log are finer.
+  std::string RemedyOfFewValues(const std::set<double>& values, int j) const {
+    const double step = StepOf(values);
+    if (step == 0) return "log more digits, if what measures it has them";
+    const double of_unit =
+        j < static_cast<int>(torque_units_.size()) ? torque_units_[j] : 1;
+    if (IsPowerOfTen(step) || IsPowerOfTen(step / of_unit)) {
+      return "log more digits";
+    }
+    return Format("all are whole numbers of %.3g ", step) +
+           EffortUnit(robot_.links[j].joint.type) +
+           ", the resolution of what measures it: more digits do not help; "
+           "let this joint carry more, or move faster";
   }
 
   const Robot& robot_;
   const Log& log_;
   const StampFigures& stamps_;
+  const std::vector<double>& torque_units_;
   std::vector<InspectionFinding> findings_;
 };
 
 }  // namespace
-
-StampFigures AuditStamps(const Log& log) {
-  StampFigures figures;
-  std::vector<double> steps = Steps(log);
-  figures.duplicates = std::count(steps.begin(), steps.end(), 0.);
-  steps.erase(std::remove(steps.begin(), steps.end(), 0.), steps.end());
-  if (steps.empty()) return figures;
-  figures.step = Quantile(steps, .2);
-  figures.longest_gap = *std::max_element(steps.begin(), steps.end());
-  // Arms are logged every 0.1 ms to 0.25 s.
-  constexpr double kSlowest = .25;
-  while (figures.step * figures.unit > kSlowest && figures.unit > 1e-9) {
-    figures.unit /= 1000;
-  }
-  double between = 0;
-  for (const double step : steps) {
-    if (IsHole(step * figures.unit, figures.step * figures.unit)) {
-      ++figures.holes;
-      figures.hole_time += step * figures.unit;
-    } else {
-      between += step;
-    }
-  }
-  figures.mean_step = between / static_cast<double>(std::max(
-                                    1L, static_cast<long>(steps.size()) -
-                                            static_cast<long>(figures.holes)));
-  long periods = 0, lost = 0;
-  for (const double step : steps) {
-    const double ratio = step / figures.step;
-    const long whole = std::max(1L, std::lround(ratio));
-    if (whole > 100 || std::abs(ratio - static_cast<double>(whole)) > .25) {
-      continue;
-    }
-    periods += whole;
-    lost += whole - 1;
-  }
-  if (periods > 0) {
-    figures.lost_share =
-        static_cast<double>(lost) / static_cast<double>(periods);
-  }
-  figures.step *= figures.unit;
-  figures.mean_step *= figures.unit;
-  figures.longest_gap *= figures.unit;
-  return figures;
-}
 
 std::optional<VelocityFit> FitVelocity(const Log& log, int joint) {
   if (log.qd.size() == 0) return {};
@@ -369,8 +321,9 @@ void SayOfAllVelocities(const Robot& robot, const Log& log,
 }
 
 std::vector<InspectionFinding> AuditChannels(const Robot& robot, const Log& log,
-                                             const StampFigures& stamps) {
-  return ChannelAudit(robot, log, stamps).Run();
+                                             const StampFigures& stamps,
+                                             const std::vector<double>& units) {
+  return ChannelAudit(robot, log, stamps, units).Run();
 }
 
 }  // namespace armcal

@@ -7,6 +7,7 @@
 
 #include "calib/logs/position_noise.h"
 #include "calib/logs/recorded_logs.h"
+#include "model/signals/position_spikes.h"
 
 namespace armcal {
 namespace {
@@ -53,6 +54,10 @@ RecordedPositions ReadPositions(const TimeRange& crop, long most,
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   read.q = Eigen::Map<const RowMajor>(
       values.data(), static_cast<Eigen::Index>(read.t.size()), n);
+  // One row in which a joint is elsewhere has a larger second difference than
+  // all others together, and would be the noise of them all.
+  const Eigen::Map<const Eigen::VectorXd> t(read.t.data(), read.q.rows());
+  for (Eigen::Index j = 0; j < n; ++j) RemovePositionSpikes(t, read.q.col(j));
   return read;
 }
 

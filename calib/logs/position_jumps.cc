@@ -49,44 +49,78 @@ bool IsAnyOtherAhead(const Log& log, int j, int k, double usual_interval) {
   return false;
 }
 
+// Takes the jumps by whole turns out of `steps`.
+std::vector<PositionJumps::Step> TakeWraps(const VectorXd& q,
+                                           PositionSteps* steps) {
+  std::vector<PositionJumps::Step> wraps;
+  std::vector<int> others;
+  for (const int k : steps->jumps) {
+    const double size = WholeTurns(q[k + 1] - q[k]);
+    if (size != 0) {
+      wraps.push_back({k + 1, size});
+    } else {
+      others.push_back(k);
+    }
+  }
+  steps->jumps = others;
+  return wraps;
+}
+
 }  // namespace
 
 LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
   LogJumps found;
   const VectorXd t = log.t;
-  std::set<int> missing;
+  Log mended;  // of what leaves its motion and comes back
+  mended.q = log.q;
+  std::vector<PositionSteps> left;  // of each joint
+  std::vector<std::vector<PositionSpike>> spikes;
   for (int j = 0; j < robot.num_joints(); ++j) {
     const VectorXd q = log.q.col(j);
-    const bool turns = IsRotational(robot.links[j].joint.type);
     PositionJumps of_joint;
     PositionSteps steps = FindJumps(t, q);
-    std::vector<int> others;
-    for (const int k : steps.jumps) {
-      const double size = turns ? WholeTurns(q[k + 1] - q[k]) : 0;
-      if (size != 0) {
-        of_joint.wraps.push_back({k + 1, size});
-      } else if (IsAnyOtherAhead(log, j, k, steps.usual_interval)) {
+    if (IsRotational(robot.links[j].joint.type)) {
+      of_joint.wraps = TakeWraps(q, &steps);
+    }
+    of_joint.spikes = TakeSpikes(t, q, {}, &steps);
+    for (const PositionSpike& spike : of_joint.spikes) {
+      Bridge(spike, t, mended.q.col(j));
+    }
+    spikes.push_back(of_joint.spikes);
+    left.push_back(steps);
+    found.joints.push_back(of_joint);
+  }
+  found.wrong_rows = WrongRows(spikes);
+  std::set<int> missing;
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    for (const int k : left[j].jumps) {
+      if (IsAnyOtherAhead(mended, j, k, left[j].usual_interval)) {
         missing.insert(k + 1);
       } else {
-        others.push_back(k);
+        found.joints[j].steps.push_back({k + 1, log.q(k + 1, j) - log.q(k, j)});
       }
     }
-    steps.jumps = others;
-    of_joint.spikes = TakeSpikes(t, q, &steps);
-    for (const int k : steps.jumps) {
-      of_joint.steps.push_back({k + 1, q[k + 1] - q[k]});
-    }
-    found.joints.push_back(of_joint);
   }
   found.missing_time.assign(missing.begin(), missing.end());
   return found;
 }
 
-void MendJumps(const std::vector<PositionJumps>& jumps, Log* log) {
-  for (size_t j = 0; j < jumps.size(); ++j) {
+void MendJumps(const LogJumps& jumps, Log* log) {
+  for (Eigen::MatrixXd* x :
+       {&log->q, &log->tau, &log->qd, &log->qdd, &log->qref, &log->temperature,
+        &log->wrench, &log->current}) {
+    for (const PositionSpike& row : jumps.wrong_rows) {
+      for (Eigen::Index c = 0; c < x->cols(); ++c) {
+        Bridge(row, log->t, x->col(c));
+      }
+    }
+  }
+  for (size_t j = 0; j < jumps.joints.size(); ++j) {
     auto q = log->q.col(static_cast<Eigen::Index>(j));
-    for (const PositionSpike& spike : jumps[j].spikes) Bridge(spike, log->t, q);
-    for (const PositionJumps::Step& wrap : jumps[j].wraps) {
+    for (const PositionSpike& spike : jumps.joints[j].spikes) {
+      Bridge(spike, log->t, q);
+    }
+    for (const PositionJumps::Step& wrap : jumps.joints[j].wraps) {
       q.tail(q.size() - wrap.row).array() -= wrap.size;
     }
   }

@@ -23,6 +23,8 @@ struct PositionJumps {
 
 struct LogJumps {
   std::vector<PositionJumps> joints;
+  // Rows that are wrong as a whole (WrongRows): several joints' spikes at once.
+  std::vector<PositionSpike> wrong_rows;
   // Rows at which one joint jumps and others that move are ahead of themselves,
   // too: the log misses time there, or two logs meet, and no encoder is to
   // blame.
@@ -32,8 +34,9 @@ struct LogJumps {
 // The log has its time in s.
 LogJumps FindPositionJumps(const Robot& robot, const Log& log);
 
-// Takes the turns out again, and puts spikes on the line between the rows
-// around. Steps stay: which side has the right zero, nobody knows.
-void MendJumps(const std::vector<PositionJumps>& jumps, Log* log);
+// Takes the turns out again, and puts spikes, and all signals of wrong rows, on
+// the line between the rows around. Steps stay: which side has the right zero,
+// nobody knows.
+void MendJumps(const LogJumps& jumps, Log* log);
 
 }  // namespace armcal

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "model/log_files/motion_frequency.h"
 #include "model/text/input_error.h"
 #include "model/text/option_name.h"
 
@@ -49,46 +50,6 @@ class StepHistogram {
   std::vector<long> count_ = std::vector<long>(kBins, 0);
   std::vector<double> sum_ = std::vector<double>(kBins, 0);
   long total_ = 0;
-};
-
-// Mean squares of positions and of their rates over 20 ms or more, which
-// keeps encoder noise out.
-class MotionSpectrum {
- public:
-  void Add(double t, const Eigen::MatrixXd& positions, int row) {
-    if (count_ > 0 && t - last_t_ < 0.02) return;
-    const Eigen::RowVectorXd q = positions.row(row);
-    if (count_ == 0) {
-      first_ = last_ = q;
-      sum_ = square_ = rate_ = Eigen::ArrayXd::Zero(q.size());
-    } else {
-      rate_ += (q - last_).transpose().array().square() / (t - last_t_);
-      time_ += t - last_t_;
-    }
-    const Eigen::ArrayXd x = (q - first_).transpose().array();
-    sum_ += x;
-    square_ += x.square();
-    ++count_;
-    last_ = q;
-    last_t_ = t;
-  }
-  double Frequency() const {
-    double frequency = 0;
-    for (int j = 0; j < sum_.size() && time_ > 0; ++j) {
-      const double mean = sum_[j] / count_;
-      const double variance = square_[j] / count_ - mean * mean;
-      if (variance < 1e-6) continue;  // 1 mrad: stands still
-      frequency = std::max(frequency, std::sqrt(rate_[j] / time_ / variance) /
-                                          (2 * 3.14159265358979));
-    }
-    return frequency;
-  }
-
- private:
-  long count_ = 0;
-  double last_t_ = 0, time_ = 0;
-  Eigen::RowVectorXd first_, last_;
-  Eigen::ArrayXd sum_, square_, rate_;
 };
 
 // Counts the steps that a sampler with equal ones would have made.
@@ -144,7 +105,7 @@ class TickCounter {
 struct Audit {
   TimeBase base;
   StepHistogram steps;
-  MotionSpectrum motion;
+  MotionFrequency motion;
   double last = 0;
 
   // False where the time is that of the row before.
@@ -204,7 +165,7 @@ TimeBase AuditTimeBase(const TimeRange& crop, KeptLog* log) {
                   })) {
     base.stamp_errors.clear();
   }
-  base.motion_hz = audit.motion.Frequency();
+  base.motion_hz = audit.motion.Hz();
   log->Rewind();
   if (base.max_step <= 3 * base.median_step) return base;
   double last = base.range.begin;

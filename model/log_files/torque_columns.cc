@@ -1,6 +1,7 @@
 #include "model/log_files/torque_columns.h"
 
 #include <cmath>
+#include <string_view>
 
 #include "model/text/format.h"
 #include "model/text/input_error.h"
@@ -71,19 +72,44 @@ std::string ConstantsWanted(const Drive& drive) {
   return wanted;
 }
 
+// Whether the header gives an effort's unit, which is that of a torque then.
+bool SaysItIsTorque(const LogColumns& columns) {
+  for (const LogColumn& column : columns.Find(Signal::kEffort)) {
+    std::string_view unit;
+    SplitUnit(columns.name(column.index), &unit);
+    if (!unit.empty() || column.scale != 1) return true;
+  }
+  return false;
+}
+
+// Where the log has what drives its motors. Drivers of servos report it as
+// efforts: where the log has no columns of its own for it, and who asks for it
+// by name, not the header, says what the efforts are, it is these.
+Signal ColumnsOf(const Drive& drive, const LogColumns& columns,
+                 const LogReaderOptions& options) {
+  const bool is_effort = options.torque_kind != TorqueKind::kAuto &&
+                         !columns.HasAny(drive.signal) &&
+                         columns.HasAll(Signal::kEffort) &&
+                         !SaysItIsTorque(columns);
+  return is_effort ? Signal::kEffort : drive.signal;
+}
+
 TorqueColumns FromDrives(const Drive& drive, const LogColumns& columns,
                          const LogReaderOptions& options) {
-  const bool efforts = columns.HasAny(Signal::kEffort);
+  const Signal signal = ColumnsOf(drive, columns, options);
+  const bool torques =
+      signal != Signal::kEffort && columns.HasAll(Signal::kEffort);
   TorqueColumns torque;
   torque.columns = columns.Find(
-      drive.signal, efforts ? "; where effort columns hold " + drive.what +
-                                  ", say so with [" + drive.unit + "]"
-                            : "");
+      signal, torques ? "; where effort columns hold " + drive.what +
+                            ", say so with [" + drive.unit + "]"
+                      : "");
   MultiplyBy(options.torque_constants, &torque.columns);
   MultiplyBy(options.gear_ratios, &torque.columns);
   torque.scale_stddev = drive.scale_stddev;
-  torque.source = drive.what + " times " + FormatAll(options.torque_constants) +
-                  " N m/" + drive.unit;
+  torque.source =
+      drive.what + (signal == Signal::kEffort ? " in tau columns" : "") +
+      " times " + FormatAll(options.torque_constants) + " N m/" + drive.unit;
   if (!options.gear_ratios.empty()) {
     torque.source += " times gear ratios " + FormatAll(options.gear_ratios);
   }
@@ -168,8 +194,10 @@ UnscaledDrives FindUnscaledDrives(const LogColumns& columns,
                         (options.torque_kind == TorqueKind::kAuto &&
                          !columns.HasAny(Signal::kEffort));
     const Drive drive = DriveOf(kind);
-    if (wanted && columns.HasAll(drive.signal)) {
-      return {columns.Named(drive.signal), drive.what, ConstantsWanted(drive)};
+    if (!wanted) continue;
+    const Signal signal = ColumnsOf(drive, columns, options);
+    if (columns.HasAll(signal)) {
+      return {columns.Named(signal), drive.what, ConstantsWanted(drive)};
     }
   }
   return {};
@@ -198,7 +226,8 @@ TorqueColumns FindTorqueColumns(const std::string& file,
       if (!options.torque_constants.empty()) {
         return FromDrives(drive, columns, options);
       }
-      const std::string names = columns.Named(drive.signal);
+      const std::string names =
+          columns.Named(ColumnsOf(drive, columns, options));
       throw InputError(file, "", "",
                        "the torque comes from " + drive.what +
                            (names.empty() ? "" : " (" + names + ")") +

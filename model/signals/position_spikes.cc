@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "model/text/quantile.h"
 
@@ -25,9 +26,13 @@ constexpr double kMostJumps = .05;    // of all steps
 constexpr double kLongestSpike = .1;  // s, of a spike
 constexpr double kBack = .2;  // of its size, to which a spike comes back
 // A second difference over the rms of all of them: of noise, however many
-// samples, it is below 6, of motion as well but for starts and stops; of a lone
-// spike in n samples it is sqrt(2 n / 3).
+// samples, it is below 6, of motion as well but for starts and stops. In n
+// samples a lone spike of one row has the square 2 n / 3, at an end n, and of
+// several rows n / 4: of a short stretch an eighth of n is asked for, so that
+// two of these show, too.
 constexpr double kMayBeASpike = 8;
+constexpr double kOfShort = 1. / 8;
+constexpr double kHole = 3;  // usual intervals, at which a stretch ends
 
 double QuantileOf(std::vector<double> values, double share) {
   const auto count = static_cast<Index>(values.size());
@@ -70,8 +75,31 @@ bool MayHaveSpikes(const Eigen::Ref<const VectorXd>& q) {
   if (n < 2 * kAroundRows) return false;
   const VectorXd second = q.head(n) - 2 * q.segment(1, n) + q.tail(n);
   const double most = second.cwiseAbs().maxCoeff();
-  return most * most * static_cast<double>(n) >
-         kMayBeASpike * kMayBeASpike * second.squaredNorm();
+  const auto count = static_cast<double>(n);
+  const double asked = std::min(kMayBeASpike * kMayBeASpike, kOfShort * count);
+  return most * most * count > asked * second.squaredNorm();
+}
+
+// Where the stretch of rows around row k ends within a tenth of a second, by
+// `way`: -1 towards its beginning, 1 towards its end; -1 where it does not. The
+// other side of a hole is known, and the joint has to be back there.
+int EndWithin(const VectorXd& t, const VectorXd& q, int k, int way,
+              const PositionSteps& steps, const StretchEnds& ends) {
+  const auto last = static_cast<int>(t.size()) - 1;
+  const int good = k - way;
+  const double size = std::abs(q[k] - q[good]);
+  for (int row = k; std::abs(t[row] - t[k]) <= kLongestSpike; row += way) {
+    if (row == (way < 0 ? 0 : last)) {
+      return (way < 0 ? ends.first : ends.last) ? row : -1;
+    }
+    const int next = row + way;
+    if (std::abs(t[next] - t[row]) > kHole * steps.usual_interval) {
+      const double reach = steps.usual_speed * std::abs(t[next] - t[good]);
+      const bool back = std::abs(q[next] - q[good]) < kBack * size + reach;
+      return back ? row : -1;
+    }
+  }
+  return -1;
 }
 
 }  // namespace
@@ -92,9 +120,10 @@ PositionSteps FindJumps(const VectorXd& t, const VectorXd& q) {
     const double size = std::abs(step[k]);
     const double time = std::max(t[k + 1] - since, usual);
     if (size > 0) since = t[k + 1];
-    if (k == 0 || k + 1 == count) continue;
+    // At an end there is one step beside it.
     const double around =
-        std::min(std::abs(step[k - 1]), std::abs(step[k + 1]));
+        std::min(std::abs(step[k == 0 ? 1 : k - 1]),
+                 std::abs(step[k + 1 == count ? k - 1 : k + 1]));
     if (size > least && size > kFaster * found.usual_speed * time &&
         size > kAround * around) {
       found.jumps.push_back(static_cast<int>(k));
@@ -108,6 +137,7 @@ PositionSteps FindJumps(const VectorXd& t, const VectorXd& q) {
 }
 
 std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
+                                      const StretchEnds& ends,
                                       PositionSteps* steps) {
   std::vector<PositionSpike> spikes;
   std::vector<int> others;
@@ -116,7 +146,8 @@ std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
     const int k = jumps[i];
     const double size = q[k + 1] - q[k];
     const auto is_near = [&](size_t other) {
-      return other < jumps.size() && t[jumps[other]] - t[k] <= kLongestSpike;
+      return other < jumps.size() &&
+             t[jumps[other]] - t[k + 1] <= kLongestSpike;
     };
     size_t back = i + 1;
     while (is_near(back) &&
@@ -125,9 +156,15 @@ std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
                    steps->usual_speed * (t[jumps[back] + 1] - t[k])) {
       ++back;
     }
+    const int begin = EndWithin(t, q, k, -1, *steps, ends);
+    const int end = EndWithin(t, q, k + 1, 1, *steps, ends);
     if (is_near(back)) {
       spikes.push_back({k + 1, jumps[back] + 1, size});
       i = back;
+    } else if (begin >= 0) {
+      spikes.push_back({begin, k + 1, -size});
+    } else if (end >= 0) {
+      spikes.push_back({k + 1, end + 1, size});
     } else {
       others.push_back(k);
     }
@@ -136,24 +173,57 @@ std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
   return spikes;
 }
 
-void Bridge(const PositionSpike& spike, const VectorXd& t,
-            Eigen::Ref<VectorXd> q) {
-  const double t0 = t[spike.begin - 1], time = t[spike.end] - t0;
-  const double before = q[spike.begin - 1], after = q[spike.end];
-  for (int k = spike.begin; k < spike.end; ++k) {
-    const double share = time > 0 ? (t[k] - t0) / time : .5;
-    q[k] = before + share * (after - before);
+std::vector<PositionSpike> WrongRows(
+    const std::vector<std::vector<PositionSpike>>& of_joints) {
+  std::map<int, int> joints;  // at each row with a spike
+  for (const auto& spikes : of_joints) {
+    for (const PositionSpike& spike : spikes) {
+      for (int row = spike.begin; row < spike.end; ++row) ++joints[row];
+    }
   }
+  std::vector<PositionSpike> wrong;
+  for (const auto& [row, count] : joints) {
+    if (count < 2) continue;
+    if (wrong.empty() || wrong.back().end < row) wrong.push_back({row, row});
+    wrong.back().end = row + 1;
+  }
+  return wrong;
+}
+
+void Bridge(const PositionSpike& spike, const VectorXd& t,
+            Eigen::Ref<VectorXd> column) {
+  const auto rows = static_cast<int>(t.size());
+  // The rows whose line they go on; at an end as many rows further in.
+  int from = spike.begin - 1, to = spike.end;
+  const int length = spike.end - spike.begin;
+  if (from < 0) {
+    from = std::min(to + length, rows - 1);
+  } else if (to >= rows) {
+    to = std::max(0, from - length);
+  }
+  if (from < 0 || to >= rows) return;  // nothing is known
+  const double t0 = t[from], time = t[to] - t0;
+  const double before = column[from], after = column[to];
+  for (int k = spike.begin; k < spike.end; ++k) {
+    const double share = time != 0 ? (t[k] - t0) / time : .5;
+    column[k] = before + share * (after - before);
+  }
+}
+
+std::vector<PositionSpike> FindSpikes(const Eigen::Ref<const VectorXd>& t,
+                                      const Eigen::Ref<const VectorXd>& q,
+                                      const StretchEnds& ends) {
+  if (!MayHaveSpikes(q)) return {};
+  const VectorXd time = t, recorded = q;
+  PositionSteps steps = FindJumps(time, recorded);
+  return TakeSpikes(time, recorded, ends, &steps);
 }
 
 long RemovePositionSpikes(const Eigen::Ref<const VectorXd>& t,
                           Eigen::Ref<VectorXd> q) {
-  if (!MayHaveSpikes(q)) return 0;
-  const VectorXd time = t, recorded = q;
-  PositionSteps steps = FindJumps(time, recorded);
   long rows = 0;
-  for (const PositionSpike& spike : TakeSpikes(time, recorded, &steps)) {
-    Bridge(spike, time, q);
+  for (const PositionSpike& spike : FindSpikes(t, q)) {
+    Bridge(spike, t, q);
     rows += spike.end - spike.begin;
   }
   return rows;

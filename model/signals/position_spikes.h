@@ -17,23 +17,43 @@ struct PositionSteps {
 };
 PositionSteps FindJumps(const Eigen::VectorXd& t, const Eigen::VectorXd& q);
 
-// Rows [begin, end) at which a position is elsewhere, between two jumps of
-// which the second brings it back within a tenth of a second.
+// Rows [begin, end) at which a position is elsewhere for a tenth of a second at
+// most: between two jumps of which the second brings it back, or between one
+// and an end of a stretch, where what is next to it decides. A stretch ends at
+// a hole of more than three usual intervals, too.
 struct PositionSpike {
   int begin = 0, end = 0;
-  double size = 0;  // of the first step, rad or m
+  double size = 0;  // of the step to them, or, at a beginning, from them
+};
+// Whether the first row and the last one are ends of a stretch, and not of a
+// window that slides over it.
+struct StretchEnds {
+  bool first = true, last = true;
 };
 // Takes the jumps that make spikes out of `steps`.
 std::vector<PositionSpike> TakeSpikes(const Eigen::VectorXd& t,
                                       const Eigen::VectorXd& q,
+                                      const StretchEnds& ends,
                                       PositionSteps* steps);
 
-// Puts a spike's rows on the line between the rows around.
-void Bridge(const PositionSpike& spike, const Eigen::VectorXd& t,
-            Eigen::Ref<Eigen::VectorXd> q);
+// The rows of spikes that two joints or more have at once: whatever wrote them
+// put no measurement there, and their torques are none either. Of one joint's
+// spike its encoder is to blame, and its torque is as good as ever.
+std::vector<PositionSpike> WrongRows(
+    const std::vector<std::vector<PositionSpike>>& of_joints);
 
-// Puts all spikes on these lines; returns of how many rows. A look at second
-// differences spares what has none the rest.
+// Puts a spike's rows of a column on the line between the rows around, and at
+// an end where the rows next to them go on, mirrored at the last good one.
+void Bridge(const PositionSpike& spike, const Eigen::VectorXd& t,
+            Eigen::Ref<Eigen::VectorXd> column);
+
+// One joint's spikes; none are taken out. A look at second differences spares
+// what has none the rest.
+std::vector<PositionSpike> FindSpikes(
+    const Eigen::Ref<const Eigen::VectorXd>& t,
+    const Eigen::Ref<const Eigen::VectorXd>& q, const StretchEnds& ends = {});
+
+// Bridges them; returns of how many rows.
 long RemovePositionSpikes(const Eigen::Ref<const Eigen::VectorXd>& t,
                           Eigen::Ref<Eigen::VectorXd> q);
 

@@ -50,14 +50,29 @@ void Resampler::Append(const Log& block, int row, int count) {
   }
 }
 
-Eigen::Array<long, 1, Eigen::Dynamic> Resampler::RemovePositionSpikes() {
+Eigen::Array<long, 1, Eigen::Dynamic> Resampler::RemovePositionSpikes(
+    bool ends) {
   using Samples = Eigen::Map<Eigen::VectorXd>;
   const auto count = static_cast<Eigen::Index>(times_.size());
   const Samples t(times_.data(), count);
+  const auto bridge = [&](const PositionSpike& spike, int column) {
+    Bridge(spike, t, Samples(columns_[column].data(), count));
+  };
   Eigen::Array<long, 1, Eigen::Dynamic> removed(widths_[0]);
+  std::vector<std::vector<PositionSpike>> of_joints;
   for (int j = 0; j < widths_[0]; ++j) {
-    removed[j] =
-        armcal::RemovePositionSpikes(t, Samples(columns_[j].data(), count));
+    of_joints.push_back(FindSpikes(t, Samples(columns_[j].data(), count),
+                                   {dropped_ == 0, ends}));
+    removed[j] = 0;
+    for (const PositionSpike& spike : of_joints.back()) {
+      bridge(spike, j);
+      removed[j] += spike.end - spike.begin;
+    }
+  }
+  for (const PositionSpike& row : WrongRows(of_joints)) {
+    for (int c = 0; c < static_cast<int>(columns_.size()); ++c) {
+      bridge(row, c);
+    }
   }
   return removed;
 }

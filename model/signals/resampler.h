@@ -20,8 +20,9 @@ class Resampler {
   double last_time() const { return times_.back(); }
   void Append(const Log& block, int row, int count = 1);
   // Puts spikes (position_spikes.h) of the positions that it holds on the line
-  // between the samples around them; of how many, per joint.
-  Eigen::Array<long, 1, Eigen::Dynamic> RemovePositionSpikes();
+  // between the samples around them, and every signal where two joints or more
+  // have one; of how many, per joint. `ends`: the last sample is the segment's.
+  Eigen::Array<long, 1, Eigen::Dynamic> RemovePositionSpikes(bool ends = true);
   // Number of grid points up to the last sample.
   long NumGridPoints() const;
   // With `count` samples more, the last of them at time t; not while empty.

@@ -209,7 +209,9 @@ Trajectory TrajectoryReader::Impl::Make(long core_begin, long core_end,
   const long end = std::min(available, core_end + margin);
   Log grid;
   Trajectory t;
-  if (bandwidth > 0) t.position_spikes = resampler.RemovePositionSpikes();
+  if (bandwidth > 0) {
+    t.position_spikes = resampler.RemovePositionSpikes(segment_ended);
+  }
   resampler.Sample(begin, end, &grid);
   t.t0 = grid.t[0];
   t.dt = base.dt;

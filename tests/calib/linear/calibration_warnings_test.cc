@@ -138,4 +138,25 @@ TEST(PositionSpikes, AreWarnedAbout) {
       1);
 }
 
+// Rows in which a logger put no measurement are one sentence for all joints,
+// and their torques are left out with them.
+TEST(PositionSpikes, OfAllJointsAreOneSentence) {
+  Arm arm(.02);
+  const LinearCalibration clean = arm.Calibrate();
+  for (const int row : {0, 2500}) {
+    arm.logs[0].q.row(row).setConstant(-M_PI);
+    arm.logs[0].tau.row(row).setZero();
+  }
+  const LinearCalibration result = arm.Calibrate();
+  const auto warnings = CalibrationWarnings(arm.robot, result);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("2 wrong rows were left out, at which all "
+                                     "joints leave their motion"));
+  EXPECT_LT(
+      (result.x - clean.x).cwiseQuotient(clean.stddev).cwiseAbs().maxCoeff(),
+      1);
+  EXPECT_EQ(result.identifiability.batch_rank,
+            clean.identifiability.batch_rank);
+}
+
 }  // namespace armcal::calibration_warnings_test

@@ -66,6 +66,20 @@ TEST_F(ChannelAuditTest, StampsThatRepeatAreCoarse) {
   EXPECT_EQ(findings[0].evidence, "80 % of the rows, which are dropped");
 }
 
+// Rows of one time are dropped, which is said where they are as long as a hole.
+TEST_F(ChannelAuditTest, AClockThatStopsIsSaid) {
+  arm_.log.t.segment(301, 2).setConstant(arm_.log.t[300]);
+  EXPECT_THAT(Names(), IsEmpty());  // three rows could be a burst of messages
+  arm_.log.t.segment(301, 40).setConstant(arm_.log.t[300]);
+  const auto findings =
+      AuditChannels(arm_.robot, arm_.log, AuditStamps(arm_.log));
+  ASSERT_EQ(findings.size(), 2u);
+  EXPECT_EQ(findings[0].finding, "stopped_clock");
+  EXPECT_EQ(findings[0].evidence,
+            "40 rows after that at 3 s have its time, and are dropped");
+  EXPECT_EQ(findings[1].finding, "holes");
+}
+
 TEST_F(ChannelAuditTest, AVelocityOfZeroIsNone) {
   arm_.log.qd.col(1).setZero();
   EXPECT_THAT(Names(), ElementsAre("velocity"));
@@ -159,6 +173,27 @@ TEST_F(ChannelAuditTest, CoarseTorque) {
   const double step = arm_.log.tau.col(0).cwiseAbs().maxCoeff() / 15;
   arm_.log.tau.col(0) = step * (arm_.log.tau.col(0) / step).array().round();
   EXPECT_THAT(Names(), testing::Contains("quantised"));
+}
+
+// Digits help where the log was rounded when it was written, in its own unit.
+TEST_F(ChannelAuditTest, OnlyARoundedTorqueWantsDigits) {
+  const Eigen::VectorXd tau = arm_.log.tau.col(0);
+  const double most = tau.cwiseAbs().maxCoeff();
+  const auto remedy = [&](double step, const std::vector<double>& units) {
+    arm_.log.tau.col(0) =
+        step * (10 * tau / most).array().round();  // 21 values
+    for (const auto& f :
+         AuditChannels(arm_.robot, arm_.log, AuditStamps(arm_.log), units)) {
+      if (f.finding == "quantised") return f.remedy;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(remedy(.1, {}), "log more digits");
+  EXPECT_EQ(remedy(.01 * 2.409, {2.409, 2.409}), "log more digits");
+  // A servo that counts its current by 2.69 mA.
+  EXPECT_THAT(remedy(.00269 * 2.409, {2.409, 2.409}),
+              testing::StartsWith("all are whole numbers of 0.00648 N m, the "
+                                  "resolution of what measures it"));
 }
 
 }  // namespace armcal::channel_audit_test

@@ -41,7 +41,7 @@ class PositionJumpsTest : public testing::Test {
   // How far a joint's mended position is from that before it was spoilt.
   double LeftAfterMending(const Log& spoilt, int j) const {
     Log mended = spoilt;
-    MendJumps(Jumps(spoilt).joints, &mended);
+    MendJumps(Jumps(spoilt), &mended);
     return (mended.q.col(j) - arm_.log.q.col(j)).cwiseAbs().maxCoeff();
   }
 
@@ -82,6 +82,29 @@ TEST_F(PositionJumpsTest, SpikesComeBack) {
   EXPECT_LT(LeftAfterMending(log, 1), 30 * .05 * .05 / 8);
 }
 
+// A row of no measurement, as loggers write after a dropout, in one line with
+// the others or after a hole: no time is missing there.
+TEST_F(PositionJumpsTest, AWrongRowIsNoMissingTime) {
+  for (const double hole : {0., .6}) {
+    Log log = arm_.log;
+    log.t.tail(log.size() - 700).array() += hole;
+    log.q.row(700).setConstant(-M_PI);
+    log.tau.row(700).setZero();
+    const LogJumps jumps = Jumps(log);
+    EXPECT_TRUE(jumps.missing_time.empty());
+    ASSERT_EQ(jumps.wrong_rows.size(), 1u);
+    EXPECT_EQ(jumps.wrong_rows[0].begin, 700);
+    EXPECT_EQ(jumps.wrong_rows[0].end, 701);
+    for (const PositionJumps& of_joint : jumps.joints) {
+      EXPECT_EQ(of_joint.spikes.size(), 1u);
+      EXPECT_TRUE(of_joint.steps.empty());
+    }
+    MendJumps(jumps, &log);
+    EXPECT_LT((log.q.row(700) - arm_.log.q.row(700)).norm(), .05);
+    EXPECT_GT(log.tau.row(700).cwiseAbs().minCoeff(), 0);
+  }
+}
+
 TEST_F(PositionJumpsTest, AnEncoderThatWrapsIsUnwrapped) {
   Log wraps = arm_.log;
   for (double& q : wraps.q.col(0)) q = q > .1 ? q - 2 * M_PI : q;
@@ -89,7 +112,7 @@ TEST_F(PositionJumpsTest, AnEncoderThatWrapsIsUnwrapped) {
   EXPECT_FALSE(jumps.joints[0].wraps.empty());
   EXPECT_TRUE(jumps.joints[0].steps.empty());
   Log mended = wraps;
-  MendJumps(jumps.joints, &mended);
+  MendJumps(jumps, &mended);
   const VectorXd off = mended.q.col(0) - arm_.log.q.col(0);
   EXPECT_LT((off.array() - off[0]).abs().maxCoeff(), 1e-9);
   EXPECT_NEAR(std::remainder(off[0], 2 * M_PI), 0, 1e-9);

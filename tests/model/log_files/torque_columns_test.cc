@@ -104,6 +104,24 @@ TEST(TorqueColumns, CurrentsAreMultipliedByConstants) {
             "currents times 2 3 N m/A: 1*2 2*3");
 }
 
+// As drivers of servos report them, where the log has no currents of its own
+// and its header does not say that they are torques.
+TEST(TorqueColumns, EffortsAreCurrentsWhereTheKindSaysSo) {
+  const std::string header = "t,shoulder/effort,elbow/effort";
+  EXPECT_EQ(Find(header, Options(TorqueKind::kCurrent, {2, 3}, {10, 1})),
+            "currents in tau columns times 2 3 N m/A times gear ratios 10 1: "
+            "1*20 2*3");
+  EXPECT_EQ(Find(header, Options(TorqueKind::kAuto, {2, 3})),
+            "tau columns (the torque constants are not used): 1*1 2*1");
+  EXPECT_EQ(Find("t,tau1,tau2,i1,i2", Options(TorqueKind::kCurrent, {2, 3})),
+            "currents times 2 3 N m/A: 3*2 4*3");
+  EXPECT_EQ(Find(header, Options(TorqueKind::kCurrent)),
+            "FILE: the torque comes from currents (shoulder/effort to "
+            "elbow/effort), its scale is not observable from them alone: "
+            "expected `torque_constants`=K1,.. in N m/A, one per joint, or "
+            "`payload_mass` and `payload_log` to estimate them");
+}
+
 TEST(TorqueColumns, VoltagesAreMultipliedByTorquePerVolt) {
   EXPECT_EQ(Find("t,u1,u2 [mV]", Options(TorqueKind::kAuto, {.5, 2}, {10, 1})),
             "voltages times 0.5 2 N m/V times gear ratios 10 1: 1*5 2*0.002");
@@ -120,6 +138,8 @@ TEST(TorqueColumns, VoltagesAreMultipliedByTorquePerVolt) {
             "FILE: the torque comes from voltages (u1 to u2), its scale is not "
             "observable from them alone: expected `torque_constants`=K1,.. in "
             "N m/V, one per joint");
+  EXPECT_EQ(Find("t,tau1,tau2", Options(TorqueKind::kVoltage, {2, 3})),
+            "voltages in tau columns times 2 3 N m/V: 1*2 2*3");
   EXPECT_EQ(Find("t,u1,tau1,tau2", Options(TorqueKind::kVoltage, {2, 3})),
             "FILE: row 1: missing u2 or elbow/voltage; the robot has 2 joints, "
             "the log holds u1; where effort columns hold voltages, say so with "
@@ -150,7 +170,7 @@ TEST(TorqueColumns, SayWhatIsMissing) {
   EXPECT_EQ(Find("t,i1", Options(TorqueKind::kAuto, {1, 1})),
             "FILE: row 1: missing i2 or elbow/current; the robot has 2 joints, "
             "the log holds i1");
-  EXPECT_EQ(Find("t,tau1,tau2", Options(TorqueKind::kCurrent, {1, 1})),
+  EXPECT_EQ(Find("t,tau1 [Nm],tau2", Options(TorqueKind::kCurrent, {1, 1})),
             "FILE: row 1: missing i1 or shoulder/current, i2 or elbow/current; "
             "the robot has 2 joints, the log holds 0 such columns; where "
             "effort columns hold currents, say so with [A]");
@@ -180,6 +200,8 @@ TEST(TorqueColumns, NamesDrivesThatWaitForConstants) {
   EXPECT_EQ(names("t,i1,i2,tau1,tau2", Options(TorqueKind::kCurrent)),
             "i1 to i2");
   EXPECT_EQ(names("t,i1,tau1,tau2", Options(TorqueKind::kCurrent)), "");
+  EXPECT_EQ(names("t,tau1,tau2", Options(TorqueKind::kCurrent)),
+            "tau1 to tau2");
 }
 
 TEST(TorqueColumns, RefuseFactorsThatDoNotFit) {

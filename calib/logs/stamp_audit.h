@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "calib/logs/inspection_finding.h"
+#include "model/log_files/log.h"
+
+namespace armcal {
+
+// What the stamps of a log are like.
+struct StampFigures {
+  double step = 0;        // s, the shortest usual one
+  double mean_step = 0;   // s
+  double lost_share = 0;  // of samples, where steps are multiples of `step`
+  long duplicates = 0;    // rows that have the time of the row before
+  // Of these, runs that are as long as a hole: how often, rows together, and
+  // the first one's time, s since the log's first row.
+  long stops = 0, stopped_rows = 0;
+  double first_stop = 0;
+  double longest_gap = 0;  // s
+  // Steps over three usual ones and over kHole: they split the log.
+  long holes = 0;
+  double hole_time = 0;  // s, of all of them
+  // By which stamps have to be multiplied to be seconds: 1, or 1e-3, 1e-6, 1e-9
+  // where no arm is logged that slowly.
+  double unit = 1;
+};
+StampFigures AuditStamps(const Log& log);
+
+// What is wrong with them: their unit, a clock that stops, samples that are
+// lost, holes. `rows`: of the log.
+std::vector<InspectionFinding> StampFindings(const StampFigures& stamps,
+                                             int rows);
+
+}  // namespace armcal
