@@ -30,6 +30,9 @@ const std::set<std::string>& OfAnotherScale() {
   return kFindings;
 }
 
+// It may as well be the centres of mass that the file has wrong.
+constexpr char kDoubtOfFile[] = "joint_zero";
+
 // Gravity so far from the file's is no tilt of the base, which is an effect
 // that a diagnosis names by itself.
 constexpr double kLeastCosine = .5;
@@ -105,7 +108,15 @@ std::vector<DataFinding> OtherUnits(const LogSource& log,
 bool Counts(const std::string& finding, const ReadingQuestions& questions) {
   return finding == "time_unit" ||
          (questions.arm && OfAnotherArm().count(finding) > 0) ||
-         (questions.scales && OfAnotherScale().count(finding) > 0);
+         (questions.scales && OfAnotherScale().count(finding) > 0) ||
+         (questions.arm && questions.scales && finding == kDoubtOfFile);
+}
+
+DataFinding Told(const LogSource& log, const InspectionFinding& found) {
+  const bool is_doubt = found.finding == kDoubtOfFile;
+  return {(is_doubt ? "as " + log.name + " has it, " : "of " + log.name + " ") +
+              found.sentence,
+          found.evidence, "armcal inspect: " + found.remedy, true, is_doubt};
 }
 
 }  // namespace
@@ -130,9 +141,7 @@ std::vector<DataFinding> WrongReadings(const Robot& robot,
     }
     for (const InspectionFinding& found : inspected[k]->findings) {
       if (!Counts(found.finding, questions)) continue;
-      wrong.push_back({"of " + logs[k].name + " " + found.sentence,
-                       found.evidence, "armcal inspect: " + found.remedy,
-                       true});
+      wrong.push_back(Told(logs[k], found));
     }
   }
   return wrong;

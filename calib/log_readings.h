@@ -25,7 +25,8 @@ struct ReadingQuestions {
 // well it fits. Each leads a diagnosis. What only scales torques is not among
 // them where `scales` is false: a reference that was recorded alike has it,
 // too. Then logs are held against the first of them: torques that are several
-// times as large on all joints are in another unit.
+// times as large on all joints are in another unit. Where `scales` is true a
+// joint of the file that seems to be reversed is told as well, as a doubt.
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,

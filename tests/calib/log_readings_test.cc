@@ -70,6 +70,20 @@ TEST_F(LogReadingsTest, AScaleMayBeTheReferencesToo) {
   EXPECT_TRUE(Wrong(milli_, false).empty());
 }
 
+// A doubt, which a diagnosis begins with and goes on.
+TEST_F(LogReadingsTest, AZeroOfTheFileIsDoubted) {
+  Log turned = arm_.log;
+  turned.q.col(2).array() -= M_PI / 2;
+  const std::vector<DataFinding> wrong = Wrong(turned, true);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_TRUE(wrong[0].is_doubt);
+  EXPECT_THAT(wrong[0].finding, HasSubstr("joint3 has its zero 90"));
+  EXPECT_TRUE(Wrong(turned, false).empty());
+  const DiagnoseSummary summary = Diagnosis(turned, nullptr);
+  EXPECT_THAT(summary.brief, HasSubstr("may be wrong in a joint"));
+  EXPECT_NE(summary.verdict, "not_testable");
+}
+
 // Which of the two it is, none tells.
 TEST_F(LogReadingsTest, AReferenceInAnotherUnitIsTold) {
   for (const bool is_reference : {false, true}) {

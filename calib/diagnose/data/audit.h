@@ -13,8 +13,9 @@ namespace armcal {
 struct DataFinding {
   std::string finding;
   std::string evidence;
-  std::string flag;    // what to change, or empty
-  bool leads = false;  // the diagnosis begins with it
+  std::string flag;       // what to change, or empty
+  bool leads = false;     // the diagnosis begins with it
+  bool is_doubt = false;  // what it says may be otherwise: the rest goes on
 };
 
 // Whether the recorded torque was computed from the recorded positions, as a

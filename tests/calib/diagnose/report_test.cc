@@ -26,6 +26,29 @@ TEST(FullReport, WrapsLongListsOfEstimates) {
                                 "         shoulder.coulomb 1.25 +- 0.1 N m,"));
 }
 
+// Those whose 95 % interval holds 0; of a single effect's numbers each stays.
+TEST(FullReport, NumbersOfJointsThatTheMotionDoesNotTellAreNamedApart) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.resize(1);
+  FoundEffect& found = diagnosis.effects[0];
+  found.estimates = {{"shoulder.viscous", "N m s/rad", .6},
+                     {"elbow.viscous", "N m s/rad", 3.8},
+                     {"wrist.viscous", "N m s/rad", -.3}};
+  found.stddev = {.1, 20, .2};
+  const std::string all =
+      "shoulder.viscous 0.6 +- 0.1 N m s/rad,\n"
+      "         elbow.viscous 3.8 +- 2e+01 N m s/rad";
+  EXPECT_THAT(FullReport(diagnosis, false), HasSubstr(all));
+  found.missing_term = JointTerm::kViscous;
+  EXPECT_THAT(FullReport(diagnosis, false),
+              HasSubstr("shoulder.viscous 0.6 +- 0.1 N m s/rad\n"
+                        "         not told by this motion: elbow.viscous, "
+                        "wrist.viscous\n"));
+  found.stddev[0] = 1;  // none is told: all are shown
+  EXPECT_THAT(FullReport(diagnosis, false), Not(HasSubstr("not told by")));
+  EXPECT_EQ(ToJson(diagnosis)["effects"][0]["estimates"].size(), 3u);
+}
+
 TEST(Reports, ListContacts) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.resize(1);

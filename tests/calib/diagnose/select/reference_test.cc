@@ -43,7 +43,7 @@ TEST_F(GapReferenceTest, KnowsWhatTheReferenceShows) {
   const double white = kNoise * std::sqrt(kBandwidth / kHalfRate);
   const GapNoise noise = ReferenceNoise(model.baseline, kBandwidth, segments_);
   for (const Autoregression& joint : noise.joints) {
-    EXPECT_NEAR(joint.stddev() / white, 1, .35);
+    EXPECT_NEAR(joint.stddev() / white, 1, .2);
   }
 }
 
