@@ -375,9 +375,7 @@ void Diagnoser::Judge() {
   };
   add(AuditTorque(robot_, fit_->rows()));
   add(TellImpossibleTerms(result_.effects, result_.moved));
-  const bool testable =
-      std::all_of(result_.data.begin(), result_.data.end(),
-                  [](const DataFinding& one) { return one.is_doubt; });
+  const bool testable = AreDoubts(result_.data);
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
   }

@@ -68,6 +68,11 @@ double Rms(const VectorXd& x) {
 
 }  // namespace
 
+bool AreDoubts(const std::vector<DataFinding>& findings) {
+  return std::all_of(findings.begin(), findings.end(),
+                     [](const DataFinding& one) { return one.is_doubt; });
+}
+
 // Some loggers write a torque that they computed from positions by a model
 // without accelerations. It is told by a fit of a law of position alone: a
 // measured torque leaves at least what the links need to accelerate. Joints

@@ -18,6 +18,9 @@ struct DataFinding {
   bool is_doubt = false;  // what it says may be otherwise: the rest goes on
 };
 
+// Whether a diagnosis goes on with all of these, or there are none.
+bool AreDoubts(const std::vector<DataFinding>& findings);
+
 // Whether the recorded torque was computed from the recorded positions, as a
 // gravity compensation's command is: then it follows a static law of position
 // to a tenth of what it takes at least to accelerate the arm as recorded, which
