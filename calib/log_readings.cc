@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "calib/inspect/inspection.h"
+#include "calib/inspect/torque_scale.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
-#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -80,18 +80,15 @@ ScaleRange RangeOf(const TorqueScales& scales) {
   return range;
 }
 
-// All joints of one log have to be beyond all of the other's by more than
-// kNotLoad, the factor by which no file's inertias are off in all links at once
-// (torque_unit.cc). Two joints at least, since a load may be several times a
-// single joint's link.
+// All joints of one log have to be beyond all of the other's. Two joints at
+// least, since a load may be several times a single joint's link.
 std::vector<DataFinding> OtherUnits(const LogSource& log,
                                     const TorqueScales& scales,
                                     const LogSource& other,
                                     const TorqueScales& others) {
-  constexpr double kNotLoad = 4;
   const ScaleRange own = RangeOf(scales), its = RangeOf(others);
   const bool is_other =
-      own.low > kNotLoad * its.high || own.high < its.low / kNotLoad;
+      own.low > kNotInertia * its.high || own.high < its.low / kNotInertia;
   const bool is_told =
       own.joints > 0 && its.joints > 0 && std::max(own.joints, its.joints) > 1;
   if (!is_told || !is_other) return {};

@@ -33,6 +33,10 @@ struct TorqueScales {
   double Left(int joint, double unit) const;
 };
 
+// No file's inertias are off by that factor, in all links at once, nor does a
+// load multiply the torques of all joints by it.
+constexpr double kNotInertia = 4;
+
 TorqueScales TorqueScale(const Robot& robot, const WiringSamples& samples);
 
 }  // namespace armcal

@@ -13,9 +13,6 @@
 namespace armcal {
 namespace {
 
-// No file's inertias are off by that factor, in all links at once. Of single
-// joints the fit is asked besides.
-constexpr double kNotInertia = 4;
 // Share of the torque that is left beside the file's inertias, read in the
 // unit. A scale s leaves |1 - u / s| in the unit u: this takes it for s of 0.6
 // u to 3.3 u.
@@ -36,6 +33,7 @@ constexpr TorqueUnit kTorqueUnits[] = {
     {1e3, "in mN m or N mm, not in N m", "[mNm]"},
     {1e-3, "in kN m, not in N m", "[kNm]"}};
 
+// Of single joints the fit is asked besides.
 bool IsAbove(const TorqueScales& scales, int j) {
   return scales.low[j] > kNotInertia;
 }
