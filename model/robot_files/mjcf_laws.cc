@@ -118,6 +118,7 @@ void MjcfLaws::AddGear(int j, XMLElement* motor) const {
 }
 
 void MjcfLaws::AddToJoint(int j, XMLElement* joint) const {
+  if (!any()) return;  // inertias were not solved for then
   const JointDrive drive = description_.DriveOf(j);
   SetMjcfFriction(drive.dry, motor_[j], joint);
   if (drive.quadratic != 0) {
