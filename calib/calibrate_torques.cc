@@ -181,6 +181,7 @@ bool TorqueCalibrator::EstimateGains() {
   if (!options_.payload) return true;
   CheckPayload(options_, input_);
   LogReaderOptions& reading = options_.reading;
+  reading.efforts_are_torques = reading.torque_kind == TorqueKind::kAuto;
   reading.torque_kind = TorqueKind::kCurrent;
   reading.torque_constants.assign(robot_.num_joints(), 1);
   LogReaderOptions currents = reading;

@@ -38,6 +38,9 @@ struct ReconstructedTorque {
 struct LogReaderOptions {
   std::vector<std::string> joint_names;  // the robot's, base to tip
   TorqueKind torque_kind = TorqueKind::kAuto;
+  // Efforts without a unit are torques also where `torque_kind` is currents or
+  // voltages, which nobody said of this log by name.
+  bool efforts_are_torques = false;
   // N m/A per joint, of voltages N m/V at standstill; empty: not given.
   std::vector<double> torque_constants;
   // Relative standard deviation of each joint's torque scale: a factor

@@ -87,10 +87,10 @@ bool SaysItIsTorque(const LogColumns& columns) {
 // by name, not the header, says what the efforts are, it is these.
 Signal ColumnsOf(const Drive& drive, const LogColumns& columns,
                  const LogReaderOptions& options) {
-  const bool is_effort = options.torque_kind != TorqueKind::kAuto &&
-                         !columns.HasAny(drive.signal) &&
-                         columns.HasAll(Signal::kEffort) &&
-                         !SaysItIsTorque(columns);
+  const bool is_effort =
+      options.torque_kind != TorqueKind::kAuto &&
+      !options.efforts_are_torques && !columns.HasAny(drive.signal) &&
+      columns.HasAll(Signal::kEffort) && !SaysItIsTorque(columns);
   return is_effort ? Signal::kEffort : drive.signal;
 }
 
