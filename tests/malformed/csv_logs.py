@@ -259,7 +259,7 @@ GROUPS = [Group(
     Row("bandwidth above half the rate", nothing,
         "--bandwidth: found '1000': expected 0, or less than half the sample rate, 50 Hz", "calibrate --robot=robot.yaml --log=log.csv --bandwidth=1000 --out=out"),
     Row("torque kind that is not there", nothing,
-        "log.csv: the torque comes from currents, its scale is not observable from them "
+        "log.csv: the torque comes from currents (tau1 to tau2), its scale is not observable from them "
         "alone: expected --torque_constants=K1,.. in N m/A, one per joint, or "
         "--payload_mass and --payload_log to estimate them", "calibrate --robot=robot.yaml --log=log.csv --torque_kind=current --out=out"),
     Row("too many constants", nothing,
