@@ -47,6 +47,7 @@ set(rooms
     calib/diagnose/changes     # which parameters changed from log to log
     calib/diagnose/candidates  # effects that could explain a gap
     calib/diagnose/modules     # what was found as sources for simulators' loops
+    calib/diagnose/contacts    # what touches are in what a model leaves
     calib/diagnose/select      # which of them do
     calib/diagnose/judge       # what held-out data say of them
     calib/diagnose      # the diagnosis as a whole and its files

@@ -42,13 +42,17 @@ std::string Touched(double probability, size_t times) {
 struct Named {
   std::vector<std::string> names;
   double least = 1;
-  bool would_show = false;  // one of them, on held-out data
+  std::vector<std::string> untold;  // of them: by the reference
+  bool would_show = false;          // one of them, on held-out data
 
   void Add(const FoundEffect& found, const GapDiagnosis& diagnosis) {
     would_show |= found.gain.IsNone();
     names.push_back(diagnosis.has_reference || IsTakenOff(found)
                         ? ChangeOf(found, diagnosis)
                         : NameOf(*found.effect, found.joint, diagnosis));
+    if (IsUntoldByReference(found, diagnosis)) {
+      untold.push_back(NameOf(*found.effect, found.joint, diagnosis));
+    }
     least = std::min(least, found.probability);
   }
   // " lacks payload, delay and backlash on elbow"
@@ -82,6 +86,13 @@ std::string Removes(const Named& effects, double removed) {
       removed);
 }
 
+// "; the reference does not tell whether it had torque ripple on elbow before"
+std::string Untold(const Named& effects, const GapDiagnosis& diagnosis) {
+  if (effects.untold.empty()) return "";
+  return "; " + SinceWhat(diagnosis) + " does not tell whether the robot had " +
+         Enumeration(effects.untold) + " before";
+}
+
 // "one of payload, base tilt and encoder offset on elbow"
 std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   std::vector<std::string> names = {
@@ -113,7 +124,7 @@ std::string NamedEffects(const GapDiagnosis& diagnosis) {
   if (diagnosis.has_reference) {
     return touched + (touched.empty() ? "" : ". ") +
            Changed(effects.least, diagnosis) + Enumeration(effects.names) +
-           removes;
+           removes + Untold(effects, diagnosis);
   }
   const std::string model = touched.empty() ? "The model" : "; the model";
   if (terms.names.empty()) {

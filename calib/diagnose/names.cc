@@ -65,6 +65,13 @@ std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   return (is_amount ? "less " : "smaller ") + name;
 }
 
+bool IsUntoldByReference(const FoundEffect& found,
+                         const GapDiagnosis& diagnosis) {
+  return diagnosis.has_reference && !found.fitted.empty() &&
+         found.effect->nature == Effect::Nature::kLaw &&
+         !found.in_reference.IsTold();
+}
+
 bool IsTakenOff(const FoundEffect& found) {
   return IsCarriedBody(*found.effect) && IsSignKnown(found) &&
          found.estimates[0].value < 0;

@@ -26,6 +26,11 @@ bool IsTakenOff(const FoundEffect& found);
 // robot file, since which nothing is said to have changed.
 std::string SinceWhat(const GapDiagnosis& diagnosis);
 
+// Whether it is a law that a reference would not have shown: one of the robot's
+// all the time, as far as that says.
+bool IsUntoldByReference(const FoundEffect& found,
+                         const GapDiagnosis& diagnosis);
+
 // Whether an effect of this probability is told without a "probably".
 bool IsConfident(double probability);
 

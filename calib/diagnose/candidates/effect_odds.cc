@@ -34,10 +34,28 @@ std::vector<JointRows> LateFriction(const GapBaseline& baseline,
   return late;
 }
 
+namespace {
+
+// Whether a share that is off by this much is so by chance, or by what a law
+// may have wrong in its form.
+bool IsWithinErrors(double missing_share, double delta_chi2) {
+  return missing_share * missing_share * delta_chi2 <
+         std::max(std::pow(Limits().by_chance, 2),
+                  Limits().form_error * delta_chi2);
+}
+
+}  // namespace
+
 bool ShareOfEffect::IsOfThisSize() const {
-  const double missing = std::pow(1 - share, 2) * delta_chi2;
-  return missing < std::max(std::pow(Limits().by_chance, 2),
-                            Limits().form_error * delta_chi2);
+  return IsWithinErrors(1 - share, delta_chi2);
+}
+
+bool ShareOfEffect::IsTold() const {
+  return delta_chi2 > std::pow(Limits().by_chance, 2);
+}
+
+bool ShareOfEffect::CouldBeLost() const {
+  return share < -1 || IsWithinErrors(1 + share, delta_chi2);
 }
 
 double ShareOfEffect::odds() const {

@@ -24,10 +24,16 @@ struct ShareOfEffect {
   // logs may share is, and what is left of it, a hundredth of its square, fits
   // the form of something else.
   bool IsOfThisSize() const;
+  // Whether they would show all of it by more than chance.
+  bool IsTold() const;
   // 2 log of the odds that they have the effect at this size, against that
   // they have none of it: by how much it lowers chi squared. At most 0 where
   // what they have is of another size.
   double odds() const;
+  // Whether logs before could have lost what the effect takes away, none of
+  // which they have by share -1: they have as much of it at least, but for the
+  // same errors.
+  bool CouldBeLost() const;
 };
 
 // Of an effect at its size in logs. `screen` has their rows, without columns,

@@ -13,9 +13,10 @@ bool IsClaimedAt(const FoundEffect& found, double probability) {
   if (!found.is_possible || IsContradicted(found)) return false;
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
-  // A law that the reference has as well, though it was not told of it, is no
-  // change.
-  if (found.odds_in_reference > Limits().score) return false;
+  // What the reference is likelier to have as well than not, though that law
+  // was not told of it, is no change.
+  if (found.in_reference.IsTold() && found.in_reference.odds() > 0)
+    return false;
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain.value <= 0)
     return false;

@@ -150,7 +150,7 @@ FoundEffect Findings::Found(size_t k) const {
     // Of its numbers a reference's model has as much as it shows.
     if (effect.effect->nature != Effect::Nature::kParameter) {
       const GapRegression& regression = fit_.regression();
-      found.odds_in_reference = regression.OddsInReference(
+      found.in_reference = regression.ShareInReference(
           effect, regression.TorqueOf(refined.effects));
     }
   }

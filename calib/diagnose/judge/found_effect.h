@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/probability.h"
-#include "calib/diagnose/select/contacts.h"
+#include "calib/diagnose/contacts/contacts.h"
 #include "calib/diagnose/select/reference_scatter.h"
 
 namespace armcal {
@@ -59,7 +60,7 @@ struct FoundEffect {
   bool dissipates = true;
   // How much of it the reference's logs show by themselves.
   ReferenceScatter scatter;
-  double odds_in_reference = 0;  // GapRegression::OddsInReference
+  ShareOfEffect in_reference;  // as one log has it
   // Whether it is friction of several joints that is that of another day: one
   // change, the estimates being each joint's, and no term of the model's.
   bool of_another_day = false;

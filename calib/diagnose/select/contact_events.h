@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
-#include "calib/diagnose/select/contacts.h"
+#include "calib/diagnose/contacts/contacts.h"
 #include "calib/diagnose/select/events.h"
-#include "calib/diagnose/select/excess.h"
+#include "calib/diagnose/contacts/excess.h"
 #include "calib/diagnose/select/regression.h"
 
 namespace armcal {

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/contacts/contacts.h"
 #include "calib/diagnose/data/data.h"
 #include "calib/diagnose/data/screen.h"
-#include "calib/diagnose/select/contacts.h"
 #include "model/log_files/time_base.h"
 
 namespace armcal {
@@ -31,8 +31,10 @@ struct GapEvent {
   // Found at rest: it is told without what effects that were fitted to motion
   // say of rest.
   bool at_rest = false;
-  // A pulse of torque on joints that move (pulse_events.h).
+  // A pulse of torque on joints that move (pulse_events.h), and which of
+  // PulseScan's banks found it.
   bool pulse = false;
+  int bank = 0;
   // Of a touch that stands out as a pulse does (ConfirmTouches): that pulse,
   // which its chance is of. The touch itself is described where its excess over
   // friction peaks, where a push on joints that slide may be small.

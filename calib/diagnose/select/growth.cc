@@ -122,27 +122,40 @@ double ScoreTogether(const GapRegression& regression,
   return CompareLarger(smaller, larger, regression.evidence()).odds - penalty;
 }
 
+std::vector<int> Offsets(const std::vector<GapCandidate>& candidates) {
+  std::vector<int> offsets;
+  for (int c = 0; c < static_cast<int>(candidates.size()); ++c) {
+    if (candidates[c].effect->joint_term == JointTerm::kOffset) {
+      offsets.push_back(c);
+    }
+  }
+  return offsets;
+}
+
+// The offsets of all joints and the rest of a set.
+std::vector<int> WithOffsets(const std::vector<GapCandidate>& candidates,
+                             const std::vector<int>& set) {
+  std::vector<int> more = Offsets(candidates);
+  for (const int c : set) {
+    if (candidates[c].effect->joint_term != JointTerm::kOffset) {
+      more.push_back(c);
+    }
+  }
+  return more;
+}
+
 // Whether offsets on several joints, none of which could be spared, are
 // together likelier than what is likeliest by itself (`best`, above the
 // threshold). Zeros of torque sensors and drives wander from day to day on all
 // joints, each by so little that another effect on many joints (an added mass)
 // is likelier than any of these offsets, and stands for them.
-bool HaveZerosMoved(const GapRegression& regression,
-                    const std::vector<GapCandidate>& candidates,
-                    const SelectionOptions& options,
-                    const std::vector<int>& set, const GapScreen& smaller,
-                    double best) {
+bool MayZerosHaveMoved(const GapRegression& regression,
+                       const std::vector<GapCandidate>& candidates,
+                       const SelectionOptions& options,
+                       const std::vector<int>& set, const GapScreen& smaller,
+                       double best) {
   const GapScreen& screen = regression.screen();
-  std::vector<int> offsets, more;
-  const auto is_offset = [&](int c) {
-    return candidates[c].effect->joint_term == JointTerm::kOffset;
-  };
-  for (const int c : set) {
-    if (!is_offset(c)) more.push_back(c);
-  }
-  for (int c = 0; c < static_cast<int>(candidates.size()); ++c) {
-    if (is_offset(c)) offsets.push_back(c);
-  }
+  const std::vector<int> offsets = Offsets(candidates);
   if (static_cast<double>(offsets.size()) < Limits().several_joints) {
     return false;
   }
@@ -150,7 +163,7 @@ bool HaveZerosMoved(const GapRegression& regression,
       std::max(best, options.threshold)) {
     return false;
   }
-  more.insert(more.begin(), offsets.begin(), offsets.end());
+  const std::vector<int> more = WithOffsets(candidates, set);
   const GapScreen larger = screen.Only(ColumnsOf(candidates, more));
   const VectorXd stddev = regression.evidence().stddev();
   int needed = 0;
@@ -225,6 +238,84 @@ bool IsOfEachJoint(const GapRegression& regression,
   return is_it({}, late) || is_it(others, late);
 }
 
+// The next effect of a set, and its odds less its penalty; -1: none is above
+// the threshold.
+struct Step {
+  int candidate = -1;
+  double odds = -std::numeric_limits<double>::infinity();
+  double best_odds = -std::numeric_limits<double>::infinity();  // of all
+};
+
+Step NextOf(const GapRegression& regression,
+            const std::vector<GapCandidate>& candidates,
+            const SelectionOptions& options, const std::vector<int>& set,
+            const GapScreen& smaller) {
+  const GapScreen& screen = regression.screen();
+  const std::vector<int> list = Shortlist(regression, candidates, options, set);
+  Step step;
+  if (list.empty()) return step;
+  VectorXd scores(list.size()), explained(list.size());
+  tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) {
+    std::vector<int> more = set;
+    more.push_back(list[i]);
+    const LargerModel larger =
+        CompareLarger(smaller, screen.Only(ColumnsOf(candidates, more)),
+                      regression.evidence());
+    scores[i] = larger.odds - Penalty(screen, candidates[list[i]]);
+    explained[i] = InNoise(regression, larger.explained);
+  });
+  step.best_odds = scores.maxCoeff();
+  const int best = Likeliest(
+      scores, explained, InNoise(regression, regression.evidence().variance),
+      options.threshold);
+  if (best < 0) return step;
+  step.candidate = list[best];
+  step.odds = scores[best];
+  return step;
+}
+
+// 2 log of the odds of all that is added to a set, effect by effect.
+double OddsOfTheRest(const std::vector<GapCandidate>& candidates,
+                     const SelectionOptions& options, std::vector<int> set,
+                     size_t most, GapRegression* regression) {
+  double odds = 0;
+  while (set.size() < most) {
+    regression->SettleEvidence(ColumnsOf(candidates, set));
+    const Step step =
+        NextOf(*regression, candidates, options, set,
+               regression->screen().Only(ColumnsOf(candidates, set)));
+    if (step.candidate < 0) break;
+    odds += step.odds;
+    set.push_back(step.candidate);
+  }
+  return odds;
+}
+
+// Whether zeros of torques have moved on several joints. Where they may have,
+// they are held against all effects that would else be taken one by one: of
+// what a payload and another effect make together they explain more than the
+// payload does.
+bool HaveZerosMoved(const std::vector<GapCandidate>& candidates,
+                    const SelectionOptions& options,
+                    const std::vector<int>& set, const GapScreen& smaller,
+                    const Step& next, GapRegression* regression) {
+  if (!MayZerosHaveMoved(*regression, candidates, options, set, smaller,
+                         next.best_odds)) {
+    return false;
+  }
+  const std::vector<int> offsets = Offsets(candidates),
+                         with = WithOffsets(candidates, set);
+  const size_t most = options.most_effects;
+  const double zeros =
+      ScoreTogether(*regression, candidates, set, smaller, offsets) +
+      OddsOfTheRest(candidates, options, with, most + with.size() - set.size(),
+                    regression);
+  const double effects =
+      OddsOfTheRest(candidates, options, set, most, regression);
+  regression->SettleEvidence(ColumnsOf(candidates, set));
+  return zeros > effects;
+}
+
 }  // namespace
 
 // Forward selection by the odds of the larger model against the smaller one,
@@ -241,36 +332,19 @@ Growth GrowEffects(const std::vector<GapCandidate>& candidates,
   std::vector<int> set;
   regression->SettleEvidence({});
   while (static_cast<int>(set.size()) < options.most_effects) {
-    const GapScreen& screen = regression->screen();
-    const std::vector<int> list =
-        Shortlist(*regression, candidates, options, set);
-    if (list.empty()) break;
-    const GapScreen smaller = screen.Only(ColumnsOf(candidates, set));
-    VectorXd scores(list.size()), explained(list.size());
-    tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) {
-      std::vector<int> more = set;
-      more.push_back(list[i]);
-      const LargerModel larger =
-          CompareLarger(smaller, screen.Only(ColumnsOf(candidates, more)),
-                        regression->evidence());
-      scores[i] = larger.odds - Penalty(screen, candidates[list[i]]);
-      explained[i] = InNoise(*regression, larger.explained);
-    });
+    const GapScreen smaller =
+        regression->screen().Only(ColumnsOf(candidates, set));
+    const Step next = NextOf(*regression, candidates, options, set, smaller);
     if (regression->HoldsZeros() &&
-        HaveZerosMoved(*regression, candidates, options, set, smaller,
-                       scores.maxCoeff())) {
+        HaveZerosMoved(candidates, options, set, smaller, next, regression)) {
       return {set, true, -1};
     }
-    const int best =
-        Likeliest(scores, explained,
-                  InNoise(*regression, regression->evidence().variance),
-                  options.threshold);
-    if (best < 0) break;
+    if (next.candidate < 0) break;
     if (IsOfEachJoint(*regression, candidates, options, set, smaller,
-                      list[best], scores[best])) {
-      return {set, false, list[best]};
+                      next.candidate, next.odds)) {
+      return {set, false, next.candidate};
     }
-    set.push_back(list[best]);
+    set.push_back(next.candidate);
     regression->SettleEvidence(ColumnsOf(candidates, set));
   }
   return {set, false, -1};

@@ -64,21 +64,47 @@ GapRegression MaskedBy(const std::vector<GapEvent>& events,
   return masked;
 }
 
-}  // namespace
-
-void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events) {
-  const double most = Limits().most_of_time * rows.time();
+std::vector<bool> SpoiltJoints(const GapRows& rows,
+                               const std::vector<GapEvent>& events) {
   std::vector<bool> spoilt;
   for (int j = 0; j < rows.num_joints(); ++j) {
-    spoilt.push_back(TimeOfPulses(*events, j) > most ||
-                     OnlyBrakes(rows, *events, j));
+    spoilt.push_back(TimeOfPulses(events, j) >
+                         Limits().most_of_time * rows.time() ||
+                     OnlyBrakes(rows, events, j));
   }
-  events->erase(std::remove_if(events->begin(), events->end(),
-                               [&](const GapEvent& event) {
-                                 return spoilt[event.contact.joint];
-                               }),
-                events->end());
-  if (TimeOfPulses(*events, -1) > most) events->clear();
+  return spoilt;
+}
+
+// Whether all joints together have them in too much of the time.
+bool TakeMostOfTheTime(const GapRows& rows,
+                       const std::vector<GapEvent>& events) {
+  return TimeOfPulses(events, -1) > Limits().most_of_time * rows.time();
+}
+
+}  // namespace
+
+// Those of the first bank, less what they spoil, and then each longer one that
+// spoils nothing.
+void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events) {
+  std::vector<GapEvent> kept, longer;
+  for (const GapEvent& event : *events) {
+    (event.bank == 0 ? kept : longer).push_back(event);
+  }
+  const std::vector<bool> spoilt = SpoiltJoints(rows, kept);
+  kept.erase(std::remove_if(kept.begin(), kept.end(),
+                            [&](const GapEvent& event) {
+                              return spoilt[event.contact.joint];
+                            }),
+             kept.end());
+  if (TakeMostOfTheTime(rows, kept)) kept.clear();
+  for (const GapEvent& event : longer) {
+    std::vector<GapEvent> with = kept;
+    with.push_back(event);
+    const bool spoils = TakeMostOfTheTime(rows, with) ||
+                        SpoiltJoints(rows, with)[event.contact.joint];
+    if (!spoils) kept = with;
+  }
+  *events = kept;
 }
 
 std::vector<GapEvent> FindPulses(const GapRegression& regression,

@@ -23,6 +23,7 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
 // comes and goes. On one joint, of which the reference may not have shown
 // enough, either spoils what is found there: one that is real cannot be told
 // among them. What all joints together have in too much of the time spoils all.
+// Longer pulses (GapEvent::bank) spoil no shorter ones.
 void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events);
 
 // Events without the pulses that no longer stand out given these effects, all

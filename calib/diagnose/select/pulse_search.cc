@@ -4,26 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "calib/diagnose/data/motion_range.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/excess.h"
+#include "calib/diagnose/select/pulse_model.h"
 
 namespace armcal {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// The largest squared deviations in as much time as the shortest push takes,
-// each: chi^2 of one degree, whose tail is nearly exponential as TailOf has it.
-// Nothing is looked for where nothing is seen.
-std::vector<double> Looks(const GapRows& rows, const PulseScan& scan) {
-  std::vector<double> looks =
-      BlockMaxima(rows, 2 * Limits().event_reach * Limits().shortest_push,
-                  scan.Largest().cwiseAbs2());
-  looks.erase(std::remove(looks.begin(), looks.end(), 0.), looks.end());
-  return looks;
-}
 
 // Of motion that no fit has seen (ReferenceNoise).
 VectorXd GrowthOf(const GapNoise& noise, int n) {
@@ -34,17 +22,18 @@ VectorXd GrowthOf(const GapNoise& noise, int n) {
 }
 
 // How probable it is that noise alone gets as far at any time, on any joint,
-// for any width that is looked for. What a Gaussian pulse of this width makes
+// for any of these widths. What a Gaussian pulse of this width makes
 // of white noise has the autocorrelation exp(-(dt / width)^2 / 2), and
 // upcrosses d at the rate exp(-d^2 / 2) / (2 pi width) (Rice 1945); of both
 // signs twice that. For large d the expected number of crossings is the
 // probability of one, which is a bound in any case (Boole).
-double ChanceOfNoise(const GapRows& rows, double deviations) {
+double ChanceOfNoise(const GapRows& rows, const std::vector<double>& widths,
+                     double square) {
   double crossings = 0;
-  for (const double width : PulseScan::Widths()) {
+  for (const double width : widths) {
     crossings += rows.num_joints() * rows.time() / (M_PI * width);
   }
-  return crossings * std::exp(-deviations * deviations / 2);
+  return crossings * std::exp(-square / 2);
 }
 
 // The pulse at a sample that stands out most on `joint`, told on all joints:
@@ -93,119 +82,6 @@ std::vector<int> SamplesOf(const GapRows& rows, const Contact& contact) {
   return samples;
 }
 
-// What the model alone leaves. What models lack as a rule (Discrepancy) is not
-// fitted, since it is flexible enough to follow a push in a short log: it is as
-// large as its prior says.
-class ModelOfPulses {
- public:
-  // The model's values x given the effects, and their covariance C: what the
-  // fit knows of its own columns, and the prior of the discrepancy's, which was
-  // not fitted here. PulseScan adds X C X' to the variance of every pulse, so
-  // that what the model may have wrong is no push.
-  ModelOfPulses(const GapRegression& regression, const JointRows& torque)
-      : x_(regression.ModelGiven(torque)),
-        robot_(regression.baseline().With(x_)),
-        known_(regression.baseline().known()),
-        range_(regression.reference()->rows()),
-        covariance_(MatrixXd::Identity(x_.size(), x_.size())) {
-    const int fitted = regression.baseline().num_model_columns();
-    covariance_.topLeftCorner(fitted, fitted) =
-        regression.screen().BaselineCovariance().topLeftCorner(fitted, fitted);
-    const GapData& reference = *regression.reference();
-    const MatrixXd left = reference.ResidualWith(x_);
-    for (int j = 0; j < left.cols(); ++j) {
-      noise_.push_back(NoiseOf(reference.rows(), j, left.col(j)));
-    }
-  }
-
-  const Robot& robot() const { return robot_; }
-  // `growth`: how much larger the variance of what it leaves is, per joint.
-  PulseScan Scan(const GapData& data, const JointRows& torque,
-                 const VectorXd& growth) const {
-    PulseScan::Model model{data.columns(), covariance_, noise_};
-    for (int j = 0; j < growth.size(); ++j) {
-      model.noise[j].sigma *= std::sqrt(growth[j]);
-    }
-    return PulseScan(data.rows(), model, data.ResidualWith(x_, torque),
-                     ExtraStddev(data.rows(), model.noise));
-  }
-
- private:
-  // The noise that a pulse is held against: an autoregression fitted to what
-  // the model leaves of the reference, which nothing touched, in all
-  // uninterrupted stretches that count, joints at rest included. Samples whose
-  // variance is more than twice the noise's are masked or next to a reversal of
-  // friction, and end a stretch.
-  static Autoregression NoiseOf(const GapRows& rows, int joint,
-                                const VectorXd& left) {
-    std::vector<VectorXd> stretches;
-    const double most = 2 * std::pow(rows.noise(joint).stddev(), 2);
-    for (size_t i = 0; i < rows.segments().size(); ++i) {
-      const int s = static_cast<int>(i);
-      int begin = rows.thin_begin(s);
-      for (int k = begin; k <= rows.thin_begin(s + 1); ++k) {
-        if (k < rows.thin_begin(s + 1) && rows.IsInPart(s, k) &&
-            rows.variance(joint, k) < most) {
-          continue;
-        }
-        if (k > begin) stretches.push_back(left.segment(begin, k - begin));
-        begin = k + 1;
-      }
-    }
-    return FitYuleWalker(stretches);
-  }
-
-  // As a Coulomb friction of its own or by a law that the robot is known to
-  // have.
-  bool HasDryFriction(int joint) const {
-    const auto& laws = known_.parameters();
-    return robot_.links[joint].joint.coulomb > 0 ||
-           std::any_of(laws.begin(), laws.end(),
-                       [joint](const KnownEffects::Parameter& law) {
-                         return law.joint == joint && law.dry != 0;
-                       });
-  }
-
-  // The standard deviation of what else may be wrong with samples, a row each.
-  // Three causes are added. The rows have an extra variance of their own around
-  // reversals of friction (GapData). Where the motion is beyond what the
-  // reference has, errors of inertias and of drag grow by MotionRange's factor
-  // f, and what the model leaves has the variance f^2 of that in the reference.
-  // A joint that does not slide holds any torque up to its Coulomb friction,
-  // the torque of joints without a motor is told in no unit, and what a joint
-  // needs the way that the reference never moved it is not known: these samples
-  // say nothing, and have an infinite one.
-  MatrixXd ExtraStddev(const GapRows& rows,
-                       const std::vector<Autoregression>& noise) const {
-    constexpr double kUnknown = std::numeric_limits<double>::infinity();
-    const Eigen::ArrayXd growth = range_.Growth(rows);
-    const auto knows = range_.Knows(rows);
-    const VectorXd usual = UsualTorque(rows.segments());
-    MatrixXd extra_stddev(rows.num_thin(), rows.num_joints());
-    for (int j = 0; j < rows.num_joints(); ++j) {
-      const double own = std::pow(rows.noise(j).stddev(), 2);
-      const double left = std::pow(noise[j].stddev(), 2);
-      const bool sticks = HasDryFriction(j);
-      for (int k = 0; k < rows.num_thin(); ++k) {
-        const bool holds = sticks && rows.IsHeld(rows.SegmentOf(k), j, k);
-        extra_stddev(k, j) =
-            holds || usual[j] == 0 || !knows(k, j)
-                ? kUnknown
-                : std::sqrt(std::max(0., rows.variance(j, k) - own) +
-                            left * (growth[k] * growth[k] - 1));
-      }
-    }
-    return extra_stddev;
-  }
-
-  VectorXd x_;
-  Robot robot_;
-  const KnownEffects& known_;
-  MotionRange range_;
-  MatrixXd covariance_;
-  std::vector<Autoregression> noise_;
-};
-
 }  // namespace
 
 PulseSearch::PulseSearch(const GapRegression& regression,
@@ -214,69 +90,110 @@ PulseSearch::PulseSearch(const GapRegression& regression,
     : rows_(data.rows()) {
   const int n = rows_.num_joints();
   const JointRows torque = regression.TorqueOf(effects);
-  const ModelOfPulses model(regression, torque);
+  const PulseModel model(regression, torque);
   robot_ = model.robot();
   scan_.emplace(model.Scan(data, torque, GrowthOf(regression.noise(), n)));
-  squares_ = scan_->deviations().cwiseAbs2();
   const GapData& reference = *regression.reference();
-  usual_ = {static_cast<double>(Looks(rows_, *scan_).size()),
-            {TailOf(Looks(reference.rows(), model.Scan(reference, JointRows(n),
-                                                       VectorXd::Ones(n))))}};
+  const PulseScan before =
+      model.Scan(reference, JointRows(n), VectorXd::Ones(n));
+  for (const std::vector<double>& widths : PulseScan::Banks()) {
+    Bank& bank = banks_.emplace_back();
+    bank.widths = widths;
+    bank.responses = scan_->Responses(widths);
+    bank.squares = bank.responses.deviations.cwiseAbs2();
+    bank.usual = UsualPeaks(rows_, bank.responses, reference.rows(),
+                            before.Responses(widths));
+  }
 }
 
+// Each as the pulses of its own bank have it.
 OwnPulses PulseSearch::BesideEvents(const std::vector<GapEvent>& events) const {
-  std::vector<std::vector<int>> windows;
+  Windows windows;
   for (const GapEvent& event : events) {
     windows.push_back(SamplesOf(rows_, event.contact));
   }
-  return PulsesBeside(rows_, *scan_, windows);
+  OwnPulses own = PulsesBeside(rows_, banks_.front().responses, windows);
+  for (size_t b = 1; b < banks_.size(); ++b) {
+    const OwnPulses longer = PulsesBeside(rows_, banks_[b].responses, windows);
+    for (size_t k = 0; k < events.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      if (events[k].bank == static_cast<int>(b)) {
+        own.chances.row(row) = longer.chances.row(row);
+      }
+    }
+  }
+  return own;
 }
 
-GapEvent PulseSearch::EventAt(int sample, int joint) const {
-  return EventOf(rows_, robot_, *scan_, sample, joint,
-                 scan_->widths()(sample, joint));
+GapEvent PulseSearch::EventAt(const Bank& bank, int sample, int joint) const {
+  GapEvent event = EventOf(rows_, robot_, *scan_, sample, joint,
+                           bank.responses.widths(sample, joint));
+  event.bank = static_cast<int>(&bank - banks_.data());
+  return event;
 }
 
-Contact PulseSearch::Fitted(const Contact& found) const {
+// What is fitted is this push and no flank of another: near its peak, of its
+// sign, and better by more than two more parameters are by chance.
+std::optional<GapEvent> PulseSearch::BetterFit(const Contact& found,
+                                               double reach,
+                                               double longest) const {
   constexpr double kTwoMore = 5.99;  // chi squared of two degrees, 95 %
-  const auto samples_about = [&](double reach) {
+  const auto samples_about = [&](double distance) {
     Contact peak = found;
-    peak.window = {found.time - reach, found.time + reach};
+    peak.window = {found.time - distance, found.time + distance};
     return SamplesOf(rows_, peak);
   };
   const std::vector<int> own = samples_about(1e-9);
-  if (own.empty()) return found;
-  // What is fitted is this push and no flank of another: near its peak, and
-  // better by more than two more parameters are by chance.
+  if (own.empty()) return {};
+  const Pulse best = scan_->Fitted(found.joint, samples_about(reach), longest);
+  const Pulse before = scan_->At(found.joint, own[0], found.width);
+  if (best.chi2 < before.chi2 + kTwoMore) return {};
+  if (!(best.torque * found.torque[found.joint] > 0)) return {};
+  return EventOf(rows_, robot_, *scan_, best.sample, found.joint, best.width);
+}
+
+// A long pulse is looked for at one width only, and hides what is in its
+// window: that of the width that fits it, if it is shorter.
+GapEvent PulseSearch::AsLongAsItIs(const GapEvent& event) const {
+  const double width = event.contact.width;
+  if (event.bank == 0) return event;
+  std::optional<GapEvent> fitted = BetterFit(event.contact, width, width);
+  if (!fitted) return event;
+  fitted->chance = event.chance;
+  fitted->bank = event.bank;
+  return *fitted;
+}
+
+Contact PulseSearch::Fitted(const Contact& found) const {
   const double longest = (found.window.end - found.window.begin) / 2;
-  const Pulse best = scan_->Fitted(
-      found.joint, samples_about(longest / Limits().event_reach), longest);
-  if (best.chi2 < scan_->At(found.joint, own[0], found.width).chi2 + kTwoMore ||
-      !(best.torque * found.torque[found.joint] > 0)) {
-    return found;
-  }
-  Contact fitted =
-      EventOf(rows_, robot_, *scan_, best.sample, found.joint, best.width)
-          .contact;
+  const std::optional<GapEvent> fitted =
+      BetterFit(found, longest / Limits().event_reach, longest);
+  if (!fitted) return found;
   // In white noise a height has 3/2 of the variance where its width is fitted
   // as well.
-  fitted.stddev[found.joint] *= std::sqrt(1.5);
-  return fitted;
+  Contact contact = fitted->contact;
+  contact.stddev[found.joint] *= std::sqrt(1.5);
+  return contact;
 }
 
 // Noise tells it by its own standard deviation or by the log's other peaks; one
-// of two tests that are asked is by chance in twice as many logs.
-double PulseSearch::Chance(double deviations, double in_log) const {
-  return std::max(usual_.Chance(deviations * deviations),
-                  2 * std::min(ChanceOfNoise(rows_, deviations), in_log));
+// of two tests that are asked is by chance in twice as many logs. Any of the
+// banks could have shown it (Bonferroni).
+double PulseSearch::Chance(const Bank& bank, int joint, double square,
+                           double in_log) const {
+  const double banks = static_cast<double>(banks_.size());
+  return banks *
+         std::max(
+             bank.usual[joint].Chance(square),
+             2 * std::min(ChanceOfNoise(rows_, bank.widths, square), in_log));
 }
 
 // The least probable pulse of all joints, where these windows have been found;
 // of chance 1 where none is seen. What the reference has by itself is asked
 // first: where that is likely enough, the log's own peaks are not.
-GapEvent PulseSearch::LeastProbable(
-    const std::vector<std::vector<int>>& found) const {
-  MatrixXd squares = squares_;
+GapEvent PulseSearch::LeastProbable(const Bank& bank,
+                                    const Windows& found) const {
+  MatrixXd squares = bank.squares;
   for (const std::vector<int>& window : found) {
     for (const int k : window) squares.row(k).setZero();
   }
@@ -284,54 +201,84 @@ GapEvent PulseSearch::LeastProbable(
   for (int j = 0; j < rows_.num_joints(); ++j) {
     int sample;
     const double square = squares.col(j).maxCoeff(&sample);
-    if (square == 0 || usual_.Chance(square) >=
+    if (square == 0 || Chance(bank, j, square, 0) >=
                            std::min(least.chance, Limits().false_contacts)) {
       continue;
     }
-    GapEvent event = EventAt(sample, j);
-    std::vector<std::vector<int>> windows = found;
+    GapEvent event = EventAt(bank, sample, j);
+    Windows windows = found;
     std::vector<int>& own = windows.emplace_back();
     for (const int k : SamplesOf(rows_, event.contact)) {
       if (squares(k, j) > 0) own.push_back(k);
     }
-    const OwnPulses beside = PulsesBeside(rows_, *scan_, windows);
+    const OwnPulses beside = PulsesBeside(rows_, bank.responses, windows);
     event.chance =
-        Chance(std::sqrt(square), beside.chances(beside.chances.rows() - 1, j));
+        Chance(bank, j, square, beside.chances(beside.chances.rows() - 1, j));
     if (event.chance < least.chance) least = event;
   }
   return least;
 }
 
-// Each of them, from the least probable on, until noise or the reference's own
-// pulses give one as large with a probability of false_contacts. The window of
-// one that was found is not looked at again: its flanks are no pushes of their
-// own.
+// Each of them, until noise or the reference's own pulses give one as large
+// with a probability of false_contacts. Of the banks that tell one, that whose
+// course fits better is taken first, which stands out by more deviations
+// (orthogonal matching pursuit). The window of one that was found is not looked
+// at again: its flanks are no pushes of their own.
 std::vector<GapEvent> PulseSearch::Find() const {
   std::vector<GapEvent> events;
-  std::vector<std::vector<int>> windows;
+  Windows windows;
   while (true) {
-    const GapEvent event = LeastProbable(windows);
+    GapEvent event;
+    for (const Bank& bank : banks_) {
+      const GapEvent of_bank = LeastProbable(bank, windows);
+      if (of_bank.chance < Limits().false_contacts &&
+          of_bank.contact.deviations > event.contact.deviations) {
+        event = of_bank;
+      }
+    }
     if (!(event.chance < Limits().false_contacts)) return events;
     windows.push_back(SamplesOf(rows_, event.contact));
-    events.push_back(event);
+    events.push_back(AsLongAsItIs(event));
+    windows.push_back(SamplesOf(rows_, events.back().contact));
   }
+}
+
+GapEvent PulseSearch::LargestOf(const Bank& bank,
+                                const std::vector<int>& window,
+                                double in_log) const {
+  GapEvent largest;
+  double square = 0;
+  int sample = -1, joint = 0;
+  for (const int k : window) {
+    for (int j = 0; j < rows_.num_joints(); ++j) {
+      if (bank.squares(k, j) <= square) continue;
+      square = bank.squares(k, j);
+      sample = k;
+      joint = j;
+    }
+  }
+  if (sample < 0) return largest;
+  largest = EventAt(bank, sample, joint);
+  largest.chance = Chance(bank, joint, square, in_log);
+  return largest;
 }
 
 std::vector<GapEvent> PulseSearch::LargestIn(
     const std::vector<GapEvent>& events) const {
-  const VectorXd in_log = BesideEvents(events).chances.rowwise().minCoeff();
-  const VectorXd all = scan_->Largest();
-  std::vector<GapEvent> largest;
-  for (size_t i = 0; i < events.size(); ++i) {
-    GapEvent& event = largest.emplace_back();
-    int sample = -1, joint;
-    for (const int k : SamplesOf(rows_, events[i].contact)) {
-      if (all[k] > (sample < 0 ? 0 : all[sample])) sample = k;
+  Windows windows;
+  for (const GapEvent& event : events) {
+    windows.push_back(SamplesOf(rows_, event.contact));
+  }
+  std::vector<GapEvent> largest(events.size());
+  for (const Bank& bank : banks_) {
+    const VectorXd in_log = PulsesBeside(rows_, bank.responses, windows)
+                                .chances.rowwise()
+                                .minCoeff();
+    for (size_t i = 0; i < events.size(); ++i) {
+      const GapEvent of_bank =
+          LargestOf(bank, windows[i], in_log[static_cast<Eigen::Index>(i)]);
+      if (of_bank.chance < largest[i].chance) largest[i] = of_bank;
     }
-    if (sample < 0) continue;
-    squares_.row(sample).maxCoeff(&joint);
-    event = EventAt(sample, joint);
-    event.chance = Chance(all[sample], in_log[static_cast<Eigen::Index>(i)]);
   }
   return largest;
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
+#include "calib/diagnose/contacts/pulses.h"
 #include "calib/diagnose/select/events.h"
-#include "calib/diagnose/select/pulses.h"
 #include "calib/diagnose/select/regression.h"
 #include "calib/numerics/maxima.h"
 
@@ -32,15 +32,28 @@ class PulseSearch {
   OwnPulses BesideEvents(const std::vector<GapEvent>& events) const;
 
  private:
-  GapEvent EventAt(int sample, int joint) const;
-  double Chance(double deviations, double in_log) const;
-  GapEvent LeastProbable(const std::vector<std::vector<int>>& found) const;
+  struct Bank {
+    std::vector<double> widths;  // s
+    PulseResponses responses;
+    Eigen::MatrixXd squares;          // of their deviations
+    std::vector<UsualMaximum> usual;  // square, of a reference, per joint
+  };
+  using Windows = std::vector<std::vector<int>>;  // thinned samples of each
+
+  GapEvent EventAt(const Bank& bank, int sample, int joint) const;
+  double Chance(const Bank& bank, int joint, double square,
+                double in_log) const;
+  std::optional<GapEvent> BetterFit(const Contact& found, double reach,
+                                    double longest) const;
+  GapEvent AsLongAsItIs(const GapEvent& event) const;
+  GapEvent LeastProbable(const Bank& bank, const Windows& found) const;
+  GapEvent LargestOf(const Bank& bank, const std::vector<int>& window,
+                     double in_log) const;
 
   const GapRows& rows_;
   Robot robot_;
   std::optional<PulseScan> scan_;
-  Eigen::MatrixXd squares_;  // of the scan's deviations
-  UsualMaximum usual_;       // square, of a reference
+  std::vector<Bank> banks_;
 };
 
 }  // namespace armcal

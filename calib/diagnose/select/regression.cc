@@ -368,9 +368,9 @@ ReferenceScatter GapRegression::ScatterOf(const GapCandidate& effect) const {
 // make up for an effect that it does not have: what they leave of a delay is
 // hardly more than what they leave without one. The numbers that the diagnosed
 // logs have, given the effect, do not.
-double GapRegression::OddsInReference(const GapCandidate& effect,
-                                      const JointRows& all) const {
-  if (!reference_) return 0;
+ShareOfEffect GapRegression::ShareInReference(const GapCandidate& effect,
+                                              const JointRows& all) const {
+  if (!reference_) return {};
   JointRows target = data_->WhitenedResidual();
   const JointRows torque = WhitenEach(data_->rows(), all);
   for (size_t j = 0; j < target.size(); ++j) {
@@ -378,8 +378,18 @@ double GapRegression::OddsInReference(const GapCandidate& effect,
   }
   GapScreen screen = reference_->Screen();
   screen.AddKnown(data_->WhitenedColumns(), target);
-  return ShareIn(baseline_, scale_, effect, std::move(screen), reference_.get())
-      .odds();
+  return ShareIn(baseline_, scale_, effect, std::move(screen),
+                 reference_.get());
+}
+
+bool GapRegression::CouldHaveLost(const GapCandidate& effect,
+                                  const JointRows& all) const {
+  if (!reference_ || !effect.is_change) return true;
+  if (effect.effect->nature != Effect::Nature::kLaw) return true;
+  const bool is_backwards = effect.effect->parameters[0].sign ==
+                                EffectParameter::Sign::kPositive &&
+                            effect.p[0] < 0;
+  return !is_backwards || ShareInReference(effect, all).CouldBeLost();
 }
 
 JointRows GapRegression::TorqueOf(

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "calib/diagnose/candidates/effect_odds.h"
 #include "calib/diagnose/candidates/refinement.h"
 #include "calib/diagnose/data/baseline.h"
 #include "calib/diagnose/data/data.h"
@@ -74,13 +75,15 @@ class GapRegression {
   // What the reference's logs differ by, pooled over joints; of no logs where
   // there is none.
   ReferenceScatter ScatterOf(const GapCandidate& effect) const;
-  // 2 log of the odds that the reference has the effect as well, at this size,
-  // against that the diagnosed logs alone have it, given what `all` effects
-  // (this one among them) give in these, per joint thinned samples; at most 0
-  // where what the reference shows is of another size, and 0 where there is no
-  // reference.
-  double OddsInReference(const GapCandidate& effect,
-                         const JointRows& all) const;
+  // How much of an effect the reference has as well, given what `all` effects
+  // (this one among them) give in the diagnosed logs, per joint thinned
+  // samples; none, told by nothing, where there is no reference.
+  ShareOfEffect ShareInReference(const GapCandidate& effect,
+                                 const JointRows& all) const;
+  // Whether a law that acts backwards, as less of it than the reference had
+  // does, can be that: one that cannot act backwards by itself (a spring) has
+  // to be there before it is lost. True for all others.
+  bool CouldHaveLost(const GapCandidate& effect, const JointRows& all) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }

@@ -10,7 +10,7 @@
 #include "calib/diagnose/candidates/refinement.h"
 #include "calib/diagnose/data/segment.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/pulses.h"
+#include "calib/diagnose/contacts/pulses.h"
 #include "calib/diagnose/select/returning_events.h"
 
 namespace armcal {
@@ -89,7 +89,9 @@ std::vector<JointRows> ColumnsOfAny(const GapRows& rows,
 // them.
 double PlacesOfPulses(const GapRows& rows) {
   double places = 0;
-  for (const double width : PulseScan::Widths()) places += rows.time() / width;
+  for (const std::vector<double>& bank : PulseScan::Banks()) {
+    for (const double width : bank) places += rows.time() / width;
+  }
   return places * rows.num_joints();
 }
 

@@ -40,6 +40,25 @@ TEST(NamedEffects, TellsEffectsAsChangesSinceAReference) {
                              testing::EndsWith("; something else is left.")));
 }
 
+TEST(NamedEffects, SaysWhereAReferenceDoesNotTellWhetherItHadALaw) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.has_reference = true;
+  diagnosis.moved.clear();
+  FoundEffect spring = MakeFound("spring", 1);
+  spring.fitted = {0};
+  diagnosis.effects = {spring};
+  EXPECT_THAT(BriefReport(diagnosis),
+              testing::EndsWith("on held-out data; the reference does not tell "
+                                "whether the robot had spring on elbow "
+                                "before."));
+  diagnosis.effects[0].in_reference = {0, 400};
+  EXPECT_THAT(BriefReport(diagnosis), testing::EndsWith("on held-out data."));
+  // A load is of the day.
+  diagnosis.effects = {MakeFound("payload", -1)};
+  diagnosis.effects[0].fitted = {0};
+  EXPECT_THAT(BriefReport(diagnosis), testing::EndsWith("on held-out data."));
+}
+
 TEST(NamedEffects, TellsTouchesAsSurelyAsTheyAreKnown) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects = {MakeTouched()};

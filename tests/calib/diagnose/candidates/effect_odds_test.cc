@@ -80,6 +80,25 @@ TEST_F(ShareInTest, WhatIsFarLargerIsSomethingElse) {
   EXPECT_EQ(larger.odds(), 0);
 }
 
+// A spring that was weakened or taken off was there before, as strong at least.
+TEST_F(ShareInTest, WhatLogsDoNotHaveTheyCannotLose) {
+  const Eigen::Vector2d lost(-kStiffness, 0);
+  EXPECT_TRUE(Share("spring", 1, lost, Spring(1)).CouldBeLost());
+  EXPECT_TRUE(Share("spring", 1, lost, Spring(2)).CouldBeLost());
+  EXPECT_FALSE(Share("spring", 1, lost, Spring(0)).CouldBeLost());
+  EXPECT_FALSE(Share("spring", 1, lost, Spring(-1)).CouldBeLost());
+}
+
+// Two deviations of chance for all of it.
+TEST(ShareOfEffect, SaysNothingOfWhatItWouldNotShow) {
+  const ShareOfEffect untold = {0, 4};
+  EXPECT_FALSE(untold.IsTold());
+  EXPECT_TRUE(untold.CouldBeLost());
+  const ShareOfEffect told = {0, 400};
+  EXPECT_TRUE(told.IsTold());
+  EXPECT_FALSE(told.CouldBeLost());
+}
+
 // Friction that changes sign late is no delay of all torque.
 TEST_F(ShareInTest, AFrictionsOwnTimeIsNoDelay) {
   const VectorXd p = VectorXd::Constant(1, -kDelay);

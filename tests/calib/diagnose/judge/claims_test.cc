@@ -95,9 +95,14 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
 }
 
 TEST_F(IsClaimedTest, WhatReferenceLogsDifferByIsNoChange) {
-  found_.odds_in_reference = 50;
+  found_.in_reference = {1, 50};
   EXPECT_FALSE(Claimed(.99, 1));
-  found_.odds_in_reference = -50;
+  found_.in_reference = {.7, 50};
+  EXPECT_FALSE(Claimed(.99, 1));
+  // Half a deviation is no word on that.
+  found_.in_reference = {.7, .25};
+  EXPECT_TRUE(Claimed(.99, 1));
+  found_.in_reference = {0, 50};
   EXPECT_TRUE(Claimed(.99, 1));
   found_.scatter = {5, .3, 4};
   EXPECT_FALSE(Claimed(.99, 1));

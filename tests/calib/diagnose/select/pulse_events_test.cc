@@ -80,4 +80,16 @@ TEST_F(PulseEvents, WhatAllJointsHaveMostOfTheTimeIsNoPush) {
                   .empty());
 }
 
+// A long one may be what the model lacks, where short ones are pushes.
+TEST_F(PulseEvents, LongOnesSpoilNoShortOnes) {
+  const std::vector<GapEvent> shorts = Pulses(0, 3, 1, .2 * kDuration);
+  std::vector<GapEvent> longs = Pulses(1, 2, 1, .2 * kDuration);
+  for (GapEvent& event : longs) event.bank = 1;
+  // One more of them fits into a third of the time, two do not.
+  EXPECT_EQ(JointsLeft(longs, shorts), (std::vector<int>{0, 0, 0, 1}));
+  // On a joint that short ones spoil they are looked at by themselves.
+  EXPECT_EQ(JointsLeft(longs, Pulses(1, 3, 1, .4 * kDuration)),
+            (std::vector<int>{1, 1}));
+}
+
 }  // namespace armcal::pulse_events_test

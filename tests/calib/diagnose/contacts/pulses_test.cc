@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/pulses.h"
+#include "calib/diagnose/contacts/pulses.h"
 
 #include <gmock/gmock.h>
 
@@ -74,6 +74,9 @@ class Pulses : public testing::Test {
         *rows_, {columns_, stddev * stddev * MatrixXd::Identity(2, 2), noise_},
         residual, extra_stddev_);
   }
+  PulseResponses Short(const MatrixXd& residual, double stddev) const {
+    return Scan(residual, stddev).Responses(PulseScan::Banks().front());
+  }
 
   std::vector<GapSegment> segments_;
   std::optional<GapRows> rows_;
@@ -110,11 +113,12 @@ TEST_F(Pulses, TellsAPushOnOneJoint) {
   MatrixXd residual = Draw(.2);
   Push(1, -2.5, 11, .3, &residual);
   const PulseScan scan = Scan(residual, .2);
+  const PulseResponses responses = Short(residual, .2);
   int sample, joint;
-  scan.deviations().cwiseAbs().maxCoeff(&sample, &joint);
+  responses.deviations.cwiseAbs().maxCoeff(&sample, &joint);
   EXPECT_EQ(joint, 1);
   EXPECT_NEAR(time(sample), 11, .15);
-  EXPECT_LT(scan.deviations()(sample, joint), -5);
+  EXPECT_LT(responses.deviations(sample, joint), -5);
   const Pulse pulse = scan.At(1, SampleAt(11), .3);
   EXPECT_NEAR(pulse.torque, -2.5, 4 * pulse.stddev);
   EXPECT_LT(pulse.stddev, .5);
@@ -147,14 +151,14 @@ TEST_F(Pulses, AreNotToldFromTheirTails) {
   MatrixXd residual = Draw(0);
   Push(0, 30, 11, .6, &residual);
   const int sample = SampleAt(11);
-  const double width = PulseScan::Widths()[0];
-  EXPECT_GT(std::abs(Scan(residual, 0).deviations()(sample, 0)), 30);
+  const double width = PulseScan::Banks()[0][0];
+  EXPECT_GT(std::abs(Short(residual, 0).deviations(sample, 0)), 30);
   for (int k = 0; k < size(); ++k) {
     if (std::abs(time(k) - 11) <= 2.5 * width) {
       extra_stddev_(k, 0) = 1e6 * noise_[0].stddev();
     }
   }
-  EXPECT_EQ(Scan(residual, 0).deviations()(sample, 0), 0);
+  EXPECT_EQ(Short(residual, 0).deviations(sample, 0), 0);
 }
 
 // An extra variance lets a pulse stand out less, as far as its samples have it.
@@ -180,8 +184,9 @@ TEST_F(Pulses, StandOutLessWhereSamplesHaveExtraVariance) {
   const Pulse pulse = scan.At(0, SampleAt(11), .3);
   EXPECT_EQ(pulse.torque, 0);
   EXPECT_TRUE(std::isinf(pulse.stddev));
-  EXPECT_EQ(scan.deviations().col(0).norm(), 0);
-  EXPECT_GT(scan.deviations().col(1).norm(), 0);
+  const PulseResponses responses = Short(residual, 0);
+  EXPECT_EQ(responses.deviations.col(0).norm(), 0);
+  EXPECT_GT(responses.deviations.col(1).norm(), 0);
 }
 
 // One of noise that the log has by itself, wherever it is looked for: no more
@@ -192,11 +197,12 @@ TEST_F(Pulses, AreAskedOfTheLogsOwnPeaks) {
   int improbable = 0;
   for (int draw = 0; draw < kDraws; ++draw) {
     const MatrixXd residual = Draw(0);
-    const PulseScan scan = Scan(residual, 0);
+    const PulseResponses responses = Short(residual, 0);
     int sample;
-    scan.Largest().maxCoeff(&sample);
+    responses.Largest().maxCoeff(&sample);
     const auto window = WindowAbout(*rows_, time(sample));
-    improbable += PulsesBeside(*rows_, scan, {window}).chances.minCoeff() < .05;
+    improbable +=
+        PulsesBeside(*rows_, responses, {window}).chances.minCoeff() < .05;
   }
   // 10 of 200 at most, and 3 deviations of that.
   EXPECT_LE(improbable, 10 + 9);
@@ -204,7 +210,7 @@ TEST_F(Pulses, AreAskedOfTheLogsOwnPeaks) {
   Push(1, 4, 5, .3, &residual);
   Push(1, -4, 14, .3, &residual);
   const OwnPulses own =
-      PulsesBeside(*rows_, Scan(residual, 0),
+      PulsesBeside(*rows_, Short(residual, 0),
                    {WindowAbout(*rows_, 5), WindowAbout(*rows_, 14),
                     WindowAbout(*rows_, 9)});
   EXPECT_LT(own.chances(0, 1), 1e-3);
@@ -213,13 +219,57 @@ TEST_F(Pulses, AreAskedOfTheLogsOwnPeaks) {
   EXPECT_GT(own.chances(2, 1), .05);
 }
 
+// The longer bank sees a push of 1.5 s better than any that was made for less.
+TEST_F(Pulses, EachBankSeesPushesOfItsOwnLength) {
+  const auto standing_out = [&](double width, size_t bank) {
+    MatrixXd residual = Draw(.2);
+    Push(1, -3, 11, width, &residual);
+    return Scan(residual, .2)
+        .Responses(PulseScan::Banks()[bank])
+        .Largest()
+        .maxCoeff();
+  };
+  EXPECT_GT(standing_out(.6, 1), 1.2 * standing_out(.6, 0));
+  EXPECT_GT(standing_out(.15, 0), 1.2 * standing_out(.15, 1));
+}
+
+// The largest of a log that is as the reference is: 5 % of them are as
+// improbable as that, or fewer. What is usual on a joint that the model knows
+// worse is not on the other.
+TEST_F(Pulses, AReferenceTellsHowLargeTheyAreWithoutAContact) {
+  constexpr int kDraws = 200;
+  int improbable = 0;
+  const auto chance = [](const std::vector<UsualMaximum>& usual,
+                         const PulseResponses& responses) {
+    double least = 1;
+    for (size_t j = 0; j < usual.size(); ++j) {
+      const double largest = responses.deviations.col(j).cwiseAbs2().maxCoeff();
+      least = std::min(least, usual[j].Chance(largest));
+    }
+    return least;
+  };
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const PulseResponses log = Short(Draw(0), 0), reference = Short(Draw(0), 0);
+    improbable += chance(UsualPeaks(*rows_, log, *rows_, reference), log) < .05;
+  }
+  // 10 of 200, and 3 deviations of that.
+  EXPECT_LE(improbable, 10 + 9);
+  MatrixXd before = Draw(0), after = Draw(0);
+  before.col(0) *= 6;
+  const PulseResponses log = Short(after, 0);
+  const std::vector<UsualMaximum> usual =
+      UsualPeaks(*rows_, log, *rows_, Short(before, 0));
+  EXPECT_GT(usual[0].Chance(100), .05);
+  EXPECT_LT(usual[1].Chance(100), .05);
+}
+
 // Errors of three times what the model says of itself; not less than it says.
 TEST_F(Pulses, OwnPeaksTellHowWellTheModelKnowsItsErrors) {
   const MatrixXd residual = Draw(0);
   const auto scale = [&](double times) {
     MatrixXd other = residual;
     other.col(0) *= times;
-    return PulsesBeside(*rows_, Scan(other, 0), {}).scale;
+    return PulsesBeside(*rows_, Short(other, 0), {}).scale;
   };
   // Rayleigh's law holds for a narrow band; that of a pulse is not.
   EXPECT_NEAR(scale(3)[0] / scale(1)[0], 3, .75);

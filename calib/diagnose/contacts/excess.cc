@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/excess.h"
+#include "calib/diagnose/contacts/excess.h"
 
 #include <glog/logging.h>
 

@@ -5,6 +5,7 @@
 
 #include "calib/diagnose/data/baseline_columns.h"
 #include "calib/diagnose/data/rows.h"
+#include "calib/numerics/maxima.h"
 
 namespace armcal {
 
@@ -19,6 +20,18 @@ struct Pulse {
   double chi2 = 0;        // that it explains, of the noise's
 };
 
+// Of every thinned sample and joint (thinned samples x n) the width of the
+// pulse that stands out most, its torque, and by how many standard deviations
+// of either sign it does; 0 where less than half of any is seen.
+struct PulseResponses {
+  Eigen::MatrixXd widths, torques, deviations;
+
+  // The largest of all joints, per thinned sample, without its sign.
+  Eigen::VectorXd Largest() const {
+    return deviations.cwiseAbs().rowwise().maxCoeff();
+  }
+};
+
 // A matched filter for pulses in what a fitted model leaves of the torque
 // (Turin 1960): with the whitened residual e and the whitened course g of a
 // pulse,
@@ -30,8 +43,9 @@ struct Pulse {
 // back.
 class PulseScan {
  public:
-  // s, of the pulses that are looked for.
-  static std::vector<double> Widths();
+  // Widths of the pulses that are looked for, s. Each bank is asked by itself:
+  // what a model lacks has larger pulses the longer they are.
+  static std::vector<std::vector<double>> Banks();
 
   struct Model {
     std::vector<BaselineColumns> columns;  // per joint, of thinned samples
@@ -45,17 +59,7 @@ class PulseScan {
             const Eigen::MatrixXd& residual,
             const Eigen::MatrixXd& extra_stddev);
 
-  // Of every thinned sample and joint (thinned samples x n) the width of the
-  // pulse that stands out most, its torque, and by how many standard deviations
-  // of either sign it does; 0 where less than half of any is seen.
-  const Eigen::MatrixXd& widths() const { return widths_; }
-  const Eigen::MatrixXd& torques() const { return torques_; }
-  const Eigen::MatrixXd& deviations() const { return deviations_; }
-  // The largest of all joints, per thinned sample, without its sign.
-  Eigen::VectorXd Largest() const {
-    return deviations_.cwiseAbs().rowwise().maxCoeff();
-  }
-
+  PulseResponses Responses(const std::vector<double>& widths) const;
   // On a joint; of no torque and an infinite deviation where it is not seen.
   Pulse At(int joint, int sample, double width) const;
   // The one that fits a joint best: of the times of these samples and of widths
@@ -79,14 +83,20 @@ class PulseScan {
   void Whiten(int segment, const Eigen::VectorXd& residual,
               const Eigen::MatrixXd& half, const Eigen::VectorXd& extra_stddev,
               Joint* joint) const;
-  void Scan(int joint, double width);
+  void Scan(int joint, double width, PulseResponses* responses) const;
   Course CourseOf(int joint, double step, double width) const;
   Pulse Fit(int joint, int segment, int sample, const Course& course) const;
 
   const GapRows& rows_;
   std::vector<Joint> joints_;
-  Eigen::MatrixXd widths_, torques_, deviations_;
 };
+
+// How large squared deviations get on each joint of `rows` without a contact,
+// as the responses of a reference (`before`) say.
+std::vector<UsualMaximum> UsualPeaks(const GapRows& rows,
+                                     const PulseResponses& responses,
+                                     const GapRows& reference,
+                                     const PulseResponses& before);
 
 // What the peaks of a log's own pulses say, where there is no event.
 struct OwnPulses {
@@ -99,7 +109,7 @@ struct OwnPulses {
 };
 
 // `windows`: thinned samples of each event.
-OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
+OwnPulses PulsesBeside(const GapRows& rows, const PulseResponses& responses,
                        const std::vector<std::vector<int>>& windows);
 
 }  // namespace armcal

@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/contacts.h"
+#include "calib/diagnose/contacts/contacts.h"
 
 #include <gmock/gmock.h>
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "calib/diagnose/contacts/excess.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/excess.h"
 #include "model/effects/effect.h"
 #include "model/log_files/time_base.h"
 

@@ -1,4 +1,4 @@
-#include "calib/diagnose/select/pulses.h"
+#include "calib/diagnose/contacts/pulses.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/numerics/maxima.h"
 #include "calib/numerics/posterior.h"
 
 namespace armcal {
@@ -75,17 +74,17 @@ std::vector<double> ChancesIn(const GapRows& rows, const VectorXd& series,
 
 // A matched filter is hardly worse for a pulse that is up to 1.4 times wider or
 // narrower: its response falls by the factor sqrt(2 r / (1 + r^2)) for widths
-// that differ by r, .97. What is wider than these is a hold, which a model's
-// own slow errors look like.
-std::vector<double> PulseScan::Widths() {
-  return {Limits().shortest_push, 2 * Limits().shortest_push};
+// that differ by r, .97. The longer ones, of pushes of one to two seconds, are
+// a bank of their own. What is wider than these is a hold, which a model's own
+// slow errors look like.
+std::vector<std::vector<double>> PulseScan::Banks() {
+  const double shortest = Limits().shortest_push;
+  return {{shortest, 2 * shortest}, {4 * shortest}};
 }
 
 PulseScan::PulseScan(const GapRows& rows, const Model& model,
                      const MatrixXd& residual, const MatrixXd& extra_stddev)
     : rows_(rows), joints_(rows.num_joints()) {
-  widths_ = torques_ = deviations_ =
-      MatrixXd::Zero(rows.num_thin(), rows.num_joints());
   for (int j = 0; j < rows.num_joints(); ++j) {
     Joint& joint = joints_[j];
     const MatrixXd half =
@@ -97,8 +96,17 @@ PulseScan::PulseScan(const GapRows& rows, const Model& model,
       Whiten(static_cast<int>(i), residual.col(j), half, extra_stddev.col(j),
              &joint);
     }
-    for (const double width : Widths()) Scan(j, width);
   }
+}
+
+PulseResponses PulseScan::Responses(const std::vector<double>& widths) const {
+  PulseResponses responses;
+  responses.widths = responses.torques = responses.deviations =
+      MatrixXd::Zero(rows_.num_thin(), rows_.num_joints());
+  for (int j = 0; j < rows_.num_joints(); ++j) {
+    for (const double width : widths) Scan(j, width, &responses);
+  }
+  return responses;
 }
 
 // Residual and X C^(1/2) of one segment, filtered by the noise's autoregression
@@ -133,18 +141,17 @@ void PulseScan::Whiten(int segment, const VectorXd& residual,
       weight * joint->noise.Whiten(with_past(half));
 }
 
-void PulseScan::Scan(int joint, double width) {
+void PulseScan::Scan(int joint, double width, PulseResponses* responses) const {
   for (size_t i = 0; i < rows_.segments().size(); ++i) {
     const int s = static_cast<int>(i);
     const Course course = CourseOf(joint, rows_.step(s), width);
     for (int k = rows_.thin_begin(s); k < rows_.thin_begin(s + 1); ++k) {
       const Pulse pulse = Fit(joint, s, k, course);
-      if (std::abs(pulse.deviations) <= std::abs(deviations_(k, joint))) {
-        continue;
-      }
-      deviations_(k, joint) = pulse.deviations;
-      torques_(k, joint) = pulse.torque;
-      widths_(k, joint) = width;
+      double& largest = responses->deviations(k, joint);
+      if (std::abs(pulse.deviations) <= std::abs(largest)) continue;
+      largest = pulse.deviations;
+      responses->torques(k, joint) = pulse.torque;
+      responses->widths(k, joint) = width;
     }
   }
 }
@@ -224,6 +231,37 @@ Pulse PulseScan::Fitted(int joint, const std::vector<int>& samples,
   return best;
 }
 
+// Each peak of the reference is a maximum of a process of a narrow band: chi^2
+// of one degree, whose tail is nearly exponential as TailOf has it (peaks over
+// a threshold, their median, which more of them tell than maxima of blocks do).
+// A joint may have larger ones than others, and a joint that shows few in the
+// reference is no quieter than all are. Any of the joints' peaks in the log
+// could be the largest.
+std::vector<UsualMaximum> UsualPeaks(const GapRows& rows,
+                                     const PulseResponses& responses,
+                                     const GapRows& reference,
+                                     const PulseResponses& before) {
+  const auto peaks = [](const GapRows& of, const PulseResponses& in, int j) {
+    return PeaksBeside(of, std::vector<bool>(of.num_thin(), false),
+                       in.deviations.col(j).cwiseAbs2());
+  };
+  std::vector<double> all;
+  std::vector<UsualMaximum> usual(rows.num_joints());
+  double further = 0;
+  for (int j = 0; j < rows.num_joints(); ++j) {
+    const std::vector<double> own = peaks(reference, before, j);
+    usual[j].tails.push_back(TailOf(own));
+    all.insert(all.end(), own.begin(), own.end());
+    further += static_cast<double>(peaks(rows, responses, j).size());
+  }
+  const MaximaTail of_all = TailOf(all);
+  for (UsualMaximum& of_joint : usual) {
+    of_joint.tails.push_back(of_all);
+    of_joint.further = further;
+  }
+  return usual;
+}
+
 // A pulse is asked against the peaks of the same matched filter on the same
 // joint where there is none. Heights of the peaks of a Gaussian process of one
 // narrow band have Rayleigh's law (Rice 1945), so that their squares are
@@ -233,7 +271,7 @@ Pulse PulseScan::Fitted(int joint, const std::vector<int>& samples,
 // Where it knows these worse than it says, the peaks of the latter say so; its
 // word counts as one peak more. Any of the n joints could have shown the pulse
 // (Bonferroni).
-OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
+OwnPulses PulsesBeside(const GapRows& rows, const PulseResponses& responses,
                        const std::vector<std::vector<int>>& windows) {
   const int n = rows.num_joints();
   std::vector<bool> in_window(rows.num_thin(), false);
@@ -243,15 +281,15 @@ OwnPulses PulsesBeside(const GapRows& rows, const PulseScan& scan,
   OwnPulses own{MatrixXd::Ones(static_cast<Eigen::Index>(windows.size()), n),
                 VectorXd(n)};
   for (int j = 0; j < n; ++j) {
-    const VectorXd worth = scan.deviations().col(j).cwiseAbs2();
+    const VectorXd worth = responses.deviations.col(j).cwiseAbs2();
     const std::vector<double> peaks = PeaksBeside(rows, in_window, worth);
     const double sum = std::accumulate(peaks.begin(), peaks.end(), 2.);
     own.scale[j] = std::max(
         1., std::sqrt(sum / (2. * static_cast<double>(peaks.size() + 1))));
     const std::vector<double> by_worth =
         ChancesIn(rows, worth, in_window, windows);
-    const std::vector<double> by_torque =
-        ChancesIn(rows, scan.torques().col(j).cwiseAbs2(), in_window, windows);
+    const std::vector<double> by_torque = ChancesIn(
+        rows, responses.torques.col(j).cwiseAbs2(), in_window, windows);
     for (size_t i = 0; i < windows.size(); ++i) {
       own.chances(static_cast<Eigen::Index>(i), j) =
           std::min(1., n * std::max(by_worth[i], by_torque[i]));
