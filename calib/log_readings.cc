@@ -137,7 +137,7 @@ std::vector<DataFinding> WrongReadings(const Robot& robot,
       }
     }
     for (const InspectionFinding& found : inspected[k]->findings) {
-      if (!Counts(found.finding, questions)) continue;
+      if (!found.leads && !Counts(found.finding, questions)) continue;
       wrong.push_back(Told(logs[k], found));
     }
   }

@@ -77,6 +77,7 @@ class Inspector {
                             jumps.end());
     result_.duration = log_.t[log_.size() - 1];
     DescribeMotion();
+    LeaveOutFrozen();
     const UniformSeries series = Series();
     DescribeSpeed(series);
     if (!CanAsk()) {
@@ -100,7 +101,7 @@ class Inspector {
     if (log_.tau.size() == 0) return true;  // nothing is
     return std::none_of(result_.findings.begin(), result_.findings.end(),
                         [](const InspectionFinding& f) {
-                          return f.finding == "stuck" ||
+                          return (f.finding == "stuck" && !f.leads) ||
                                  f.finding == "no_torque" ||
                                  f.finding == "position_jump" ||
                                  f.finding == "missing_time";
@@ -126,6 +127,28 @@ class Inspector {
     if (log_.qref.size() == 0) return;
     result_.tracking_rms =
         (log_.qref - log_.q).colwise().norm() / std::sqrt(log_.size());
+  }
+
+  // Before anything is concluded from them. Of such a column nothing else is
+  // said, but that it is at a limit where it is so in other rows, too.
+  void LeaveOutFrozen() {
+    if (log_.tau.size() == 0) return;
+    result_.frozen = FindFrozenChannels(robot_, log_, Series());
+    if (result_.frozen.empty()) return;
+    const auto findings = FrozenFindings(robot_, log_.t, result_.frozen);
+    log_ = WithoutFrozenRows(log_, result_.frozen);
+    for (const FrozenChannel& run : result_.frozen) {
+      const bool is_at_limit =
+          (log_.tau.col(run.joint).array() == run.value).count() > 1;
+      DropFindings(
+          [&](const InspectionFinding& f) {
+            return IsOf(run, f) && (f.finding == "stuck" ||
+                                    (f.finding == "saturated" && !is_at_limit));
+          },
+          &result_.findings);
+    }
+    result_.findings.insert(result_.findings.begin(), findings.begin(),
+                            findings.end());
   }
 
   UniformSeries Series() const {
@@ -204,7 +227,8 @@ class Inspector {
     MergeTorqueSigns(&found.changes);
     result_.reading = found.reading;
     DropRightVelocities(opposite);
-    result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
+    result_.as_it_is = found.changes.empty() && !result_.clock.wrong() &&
+                       result_.frozen.empty();
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) {
       result_.findings.push_back(FindingOf(change, found.reading, robot_));
@@ -362,7 +386,7 @@ Log Mended(const Robot& robot, const Log& recorded,
     mended.tau.col(j) = reading.wiring.torque_sign[j] *
                         log.tau.col(reading.wiring.torque_column[j]);
   }
-  return mended;
+  return WithoutFrozenRows(mended, inspection.frozen);
 }
 
 }  // namespace armcal

@@ -32,7 +32,7 @@ MatrixXd Interpolated(const VectorXd& stamps, const MatrixXd& values,
 
 UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
                              double bandwidth_hz)
-    : dt_(dt) {
+    : dt_(dt), bandwidth_hz_(bandwidth_hz) {
   const int size =
       1 + static_cast<int>((log.t[log.size() - 1] - log.t[0]) / dt);
   const VectorXd times =

@@ -24,6 +24,7 @@ class UniformSeries {
                 double bandwidth_hz);
 
   double dt() const { return dt_; }
+  double bandwidth_hz() const { return bandwidth_hz_; }
   int num_moving() const { return static_cast<int>(moving_.size()); }
   // Low-passed, rows on the grid.
   const Motion& motion() const { return motion_; }
@@ -34,7 +35,7 @@ class UniformSeries {
   WiringSamples Pick(int count, double delay) const;
 
  private:
-  double dt_;
+  double dt_, bandwidth_hz_;
   Motion motion_;
   Eigen::MatrixXd tau_;
   std::vector<int> moving_;
