@@ -235,12 +235,15 @@ class Inspector {
     }
     AddUnsigned(series);
     Robot robot = robot_;
-    robot.gravity = found.reading.gravity;
+    LogReading as_logged = found.reading;
+    as_logged.torque_unit = 1;
+    robot.gravity = as_logged.gravity;
     const WiringSamples samples =
-        SamplesAs(found.reading, robot_, series, kSamples);
+        SamplesAs(as_logged, robot_, series, kSamples);
     result_.torque_scales = TorqueScale(robot, samples);
     // What is wrong with the log would be asked of the file's bodies, too.
     if (result_.as_it_is) {
+    DropTorqueUnit(&found.changes);
       const auto zeros = DoubtJointZeros(robot, samples);
       result_.findings.insert(result_.findings.end(), zeros.begin(),
                               zeros.end());

@@ -11,6 +11,7 @@
 #include "calib/inspect/held_out_fit.h"
 #include "calib/inspect/reading_candidates.h"
 #include "calib/inspect/torque_delay.h"
+#include "calib/inspect/torque_scale.h"
 #include "calib/inspect/turned_gravity.h"
 #include "model/robot/axis_rotation.h"
 
@@ -85,7 +86,24 @@ class Reader {
     return SamplesAs(reading, robot_, series_, samples_);
   }
   double Misfit(const LogReading& reading, double* percent = nullptr) const {
-    return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
+    const WiringSamples samples = SamplesOf(reading);
+    return Misfit(FitOf(reading), reading, samples.tau, percent);
+  }
+  // Of torques as logged, in whatever unit they are read: log p(tau) is that of
+  // tau u plus log u for each of them.
+  static double Misfit(const TorqueFit& fit, const LogReading& reading,
+                       const Eigen::MatrixXd& tau, double* percent = nullptr) {
+    const double misfit = fit.Misfit(tau, percent);
+    if (reading.torque_unit == 1) return misfit;
+    const double count =
+        fit.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols())).sum();
+    return misfit - count * std::log(reading.torque_unit);
+  }
+
+  // Of torques as they are logged, in whatever unit they are read.
+  TorqueScales ScalesOf(LogReading reading) const {
+    reading.torque_unit = 1;
+    return TorqueScale(RobotOf(reading), SamplesOf(reading));
   }
 
   // Of which joints signs and order are asked.
@@ -108,6 +126,14 @@ class Reader {
     for (const Candidate& candidate : GravityCandidates(best_, magnitude)) {
       if (AsksGravity() && candidate.reading.gravity != best_.gravity) {
         all.push_back(candidate);
+      }
+    }
+    // A sign or an order may show in the right unit alone, and the unit beside
+    // the right signs alone.
+    for (const Candidate& unit : TorqueUnitCandidates(best_, ScalesOf(best_))) {
+      all.push_back(unit);
+      for (Candidate& both : WiringCandidates(unit.reading, Asked())) {
+        all.push_back(std::move(both));
       }
     }
     for (Candidate& candidate : UnitCandidates(best_, robot_)) {
@@ -147,7 +173,7 @@ class Reader {
       const WiringSamples samples = SamplesOf(reading);
       if (k == 0 || !MoveAlike(reading, all[k - 1].reading))
         fit.emplace(RobotOf(reading), samples.motion);
-      misfits.push_back(fit->Misfit(samples.tau));
+      misfits.push_back(Misfit(*fit, reading, samples.tau));
     }
     return misfits;
   }
@@ -378,19 +404,6 @@ class Reader {
 };
 
 }  // namespace
-
-WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
-                        const UniformSeries& series, int count) {
-  WiringSamples samples =
-      Rewired(series.Pick(count, reading.delay), reading.wiring);
-  for (int j = 0; reading.units.any() && j < robot.num_joints(); ++j) {
-    const double unit = reading.units.Of(robot.links[j].joint);
-    samples.motion.q.col(j) *= unit;
-    samples.motion.qd.col(j) *= unit;
-    samples.motion.qdd.col(j) *= unit;
-  }
-  return samples;
-}
 
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
                            const ReadingHints& hints) {

@@ -1,6 +1,7 @@
 #include "calib/inspect/reading_candidates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace armcal {
@@ -85,6 +86,19 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
   if (turns) all.push_back(InOtherUnit(from, Kind::kDegrees));
   if (slides) all.push_back(InOtherUnit(from, Kind::kMillimetres));
   return all;
+}
+
+std::vector<Candidate> TorqueUnitCandidates(const LogReading& from,
+                                            const TorqueScales& as_logged) {
+  const double size = as_logged.Size();
+  const bool is_other = size > kNotInertia || size < 1 / kNotInertia;
+  const double unit =
+      is_other && std::isfinite(size) && size > 0 ? 1 / size : 1;
+  const double ratio = unit / from.torque_unit;
+  if (ratio < kNotInertia && ratio > 1 / kNotInertia) return {};
+  Candidate other{from, {Kind::kTorqueUnit}};
+  other.reading.torque_unit = unit;
+  return {other};
 }
 
 LogReading WithTurnedGravity(LogReading reading) {

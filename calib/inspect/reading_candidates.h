@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "calib/inspect/reading_change.h"
+#include "calib/inspect/torque_scale.h"
 
 namespace armcal {
 
@@ -27,6 +28,15 @@ Candidate InOtherUnit(const LogReading& from, ReadingChange::Kind kind);
 // The same of both units, of joints that turn and slide, if there are some.
 std::vector<Candidate> UnitCandidates(const LogReading& from,
                                       const Robot& robot);
+
+// Torques that are divided by how many times those that the file's links need
+// they are, which no inertias near the file's would be (kNotInertia); none
+// where they are not. A sign that is asked of torques a thousand times as large
+// is one of an arm that no file describes: the bodies of the fit, which stay
+// near the file's, explain next to nothing of them, and another sign or
+// direction may explain more than that by chance.
+std::vector<Candidate> TorqueUnitCandidates(const LogReading& from,
+                                            const TorqueScales& as_logged);
 
 // Gravity of that size, m/s^2, along each axis of the world, and none.
 std::vector<Candidate> GravityCandidates(const LogReading& from,
