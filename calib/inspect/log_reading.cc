@@ -239,6 +239,12 @@ class Reader {
     // ../shared/data with all torques negated it is likelier so in 97, by 107
     // to 5000 nats, and in the 98th, where it is not, this confirms neither.
     if (IsAllSigns(change.kind) && all_fit_better) return true;
+    // Inertias that are free take half of a wrong sign's misfit in slow motion.
+    // The file's own, which then are opposite to all torques, do not.
+    if (change.kind == Kind::kAllTorqueSigns && ScalesOf(best_).AreOpposite() &&
+        held_out.residual_percent < held_out_.residual_percent) {
+      return true;
+    }
     // Columns of single joints stand in the motion of all: what is wrong with
     // them shows in the torques of others, too. That of a joint which hardly
     // works may fit better by chance, and a direction of gravity or a unit is
