@@ -201,12 +201,28 @@ class Inspector {
                            static_cast<double>(series.motion().size());
   }
 
+  // An arm that moves, but never for long between two holes, needs no other
+  // motion.
+  static InspectionFinding NoMotion(const UniformSeries& series) {
+    const double moving = series.num_moving() * series.dt();
+    const double at_gaps = series.num_moving_at_gaps() * series.dt();
+    if (series.num_moving() + series.num_moving_at_gaps() < kLeastMoving) {
+      return {"no_motion", "the arm hardly moves",
+              Format("%.2g s of motion", moving),
+              "record a motion (armcal excite)"};
+    }
+    return {"no_motion",
+            "the holes leave too little motion to ask torques for signs, "
+            "order, units and gravity",
+            Format("of %.3g s of motion %.2g s are farther than %.2g s from a "
+                   "hole",
+                   moving + at_gaps, moving, series.reach()),
+            "log without losses"};
+  }
+
   void ReadTorques(const UniformSeries& series) {
     if (series.num_moving() < kLeastMoving) {
-      result_.findings.push_back(
-          {"no_motion", "the arm hardly moves",
-           Format("%.2g s of motion", series.num_moving() * series.dt()),
-           "record a motion (armcal excite)"});
+      result_.findings.push_back(NoMotion(series));
       return;
     }
     if (log_.tau.size() == 0) {
@@ -225,6 +241,7 @@ class Inspector {
     const std::vector<bool> opposite = OppositeVelocities(log_);
     BelieveVelocities(opposite, &found);
     MergeTorqueSigns(&found.changes);
+    DropTorqueUnit(&found.changes);
     result_.reading = found.reading;
     DropRightVelocities(opposite);
     result_.as_it_is = found.changes.empty() && !result_.clock.wrong() &&
@@ -243,7 +260,6 @@ class Inspector {
     result_.torque_scales = TorqueScale(robot, samples);
     // What is wrong with the log would be asked of the file's bodies, too.
     if (result_.as_it_is) {
-    DropTorqueUnit(&found.changes);
       const auto zeros = DoubtJointZeros(robot, samples);
       result_.findings.insert(result_.findings.end(), zeros.begin(),
                               zeros.end());
