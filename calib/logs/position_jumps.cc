@@ -66,13 +66,18 @@ std::vector<PositionJumps::Step> TakeWraps(const VectorXd& q,
   return wraps;
 }
 
-// Whether a joint goes from before a spike's rows to after them as fast as it
-// may in motion (FindJumps' five times the usual speed), or no more is known.
-bool GoesOnOver(const PositionSpike& spike, const VectorXd& t,
-                const VectorXd& q, double usual_speed) {
-  if (spike.begin == 0 || spike.end == q.size()) return true;
-  const double way = std::abs(q[spike.end] - q[spike.begin - 1]);
-  return way < 5 * usual_speed * (t[spike.end] - t[spike.begin - 1]);
+// Whether a joint is off its way at a spike's rows, beyond both rows around
+// them, between which it goes as fast as it may in motion (FindJumps' five
+// times the usual speed). Where time is missing it is ahead on its way.
+bool IsOffItsWay(const PositionSpike& spike, const VectorXd& t,
+                 const VectorXd& q, double usual_speed) {
+  if (spike.begin == 0 || spike.end == q.size()) return false;
+  const double before = q[spike.begin - 1], after = q[spike.end];
+  const auto rows = q.segment(spike.begin, spike.end - spike.begin).array();
+  const bool is_beyond = (rows < std::min(before, after)).all() ||
+                         (rows > std::max(before, after)).all();
+  return is_beyond && std::abs(after - before) <
+                          5 * usual_speed * (t[spike.end] - t[spike.begin - 1]);
 }
 
 // A row that a logger made up is wrong in all columns, and one of them may be
@@ -107,7 +112,7 @@ void TakeOthersSpikes(const std::vector<std::vector<PositionSpike>>& found,
         return part != own->end() &&
                (k + 1 == part->begin || k + 1 == part->end);
       };
-      if (!GoesOnOver(spike, t, q, left->usual_speed) ||
+      if (!IsOffItsWay(spike, t, q, left->usual_speed) ||
           std::any_of(still.begin(), still.end(),
                       [&](int k) { return is_at_it(k) || is_of_part(k); })) {
         continue;
@@ -115,8 +120,8 @@ void TakeOthersSpikes(const std::vector<std::vector<PositionSpike>>& found,
       jumps.erase(std::remove_if(jumps.begin(), jumps.end(), is_at_it),
                   jumps.end());
       own->erase(std::remove_if(own->begin(), own->end(), is_more), own->end());
-      const double before = q[spike.begin > 0 ? spike.begin - 1 : spike.end];
-      own->push_back({spike.begin, spike.end, q[spike.begin] - before});
+      own->push_back(
+          {spike.begin, spike.end, q[spike.begin] - q[spike.begin - 1]});
     }
   }
   std::sort(own->begin(), own->end(),
