@@ -87,20 +87,9 @@ class Reader {
   }
   double Misfit(const LogReading& reading, double* percent = nullptr) const {
     const WiringSamples samples = SamplesOf(reading);
-    return Misfit(FitOf(reading), reading, samples.tau, percent);
-  }
-  // Of torques as logged, in whatever unit they are read: log p(tau) is that of
-  // tau u plus log u for each of them.
-  static double Misfit(const TorqueFit& fit, const LogReading& reading,
-                       const Eigen::MatrixXd& tau, double* percent = nullptr) {
-    const double misfit = fit.Misfit(tau, percent);
-    if (reading.torque_unit == 1) return misfit;
-    const double count =
-        fit.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols())).sum();
-    return misfit - count * std::log(reading.torque_unit);
+    return MisfitAsLogged(FitOf(reading), reading, samples.tau, percent);
   }
 
-  // Of torques as they are logged, in whatever unit they are read.
   TorqueScales ScalesOf(LogReading reading) const {
     reading.torque_unit = 1;
     return TorqueScale(RobotOf(reading), SamplesOf(reading));
@@ -128,14 +117,7 @@ class Reader {
         all.push_back(candidate);
       }
     }
-    // A sign or an order may show in the right unit alone, and the unit beside
-    // the right signs alone.
-    for (const Candidate& unit : TorqueUnitCandidates(best_, ScalesOf(best_))) {
-      all.push_back(unit);
-      for (Candidate& both : WiringCandidates(unit.reading, Asked())) {
-        all.push_back(std::move(both));
-      }
-    }
+    AddTorqueUnit(best_, ScalesOf(best_), Asked(), &all);
     for (Candidate& candidate : UnitCandidates(best_, robot_)) {
       all.push_back(std::move(candidate));
     }
@@ -173,7 +155,7 @@ class Reader {
       const WiringSamples samples = SamplesOf(reading);
       if (k == 0 || !MoveAlike(reading, all[k - 1].reading))
         fit.emplace(RobotOf(reading), samples.motion);
-      misfits.push_back(Misfit(*fit, reading, samples.tau));
+      misfits.push_back(MisfitAsLogged(*fit, reading, samples.tau));
     }
     return misfits;
   }
@@ -195,6 +177,7 @@ class Reader {
       if (asked[kind]++ >= kMostAsked) continue;
       const HeldOutFit held_out = HeldOut(all[k].reading);
       if (!Confirms(all[k], held_out)) continue;
+      if (!IsBesideUnit(k, held_out, misfits, all)) continue;
       // Gravity turned gives joints that carry nothing a load to be fitted to:
       // where what concerns one joint explains as much, it is that.
       if (kind == Kind::kGravity) {
@@ -207,6 +190,24 @@ class Reader {
     }
     if (gravity) Take(gravity->first, gravity->second, misfits, &all);
     return gravity.has_value();
+  }
+
+  // What comes with another unit of torques explains more than that alone.
+  bool IsBesideUnit(size_t k, const HeldOutFit& held_out,
+                    const std::vector<double>& misfits,
+                    const std::vector<Candidate>& all) {
+    const bool is_both = all[k].change.kind != Kind::kTorqueUnit &&
+                         all[k].reading.torque_unit != best_.torque_unit;
+    for (size_t i = 0; is_both && i < all.size(); ++i) {
+      if (all[i].change.kind != Kind::kTorqueUnit) continue;
+      if (!(misfits[k] < misfits[i] - kLeastGain)) return false;
+      const HeldOutFit as_is = held_out_;
+      held_out_ = HeldOut(all[i].reading);
+      const bool confirmed = Confirms(all[k], held_out);
+      held_out_ = as_is;
+      return confirmed;
+    }
+    return true;
   }
 
   void Take(size_t k, const HeldOutFit& held_out,
@@ -239,8 +240,8 @@ class Reader {
     // ../shared/data with all torques negated it is likelier so in 97, by 107
     // to 5000 nats, and in the 98th, where it is not, this confirms neither.
     if (IsAllSigns(change.kind) && all_fit_better) return true;
-    // Inertias that are free take half of a wrong sign's misfit in slow motion.
-    // The file's own, which then are opposite to all torques, do not.
+    // Free inertias take half of a wrong sign's misfit in slow motion; the
+    // file's own, which are opposite to all torques then, do not.
     if (change.kind == Kind::kAllTorqueSigns && ScalesOf(best_).AreOpposite() &&
         held_out.residual_percent < held_out_.residual_percent) {
       return true;

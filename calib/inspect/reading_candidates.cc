@@ -88,17 +88,30 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
   return all;
 }
 
-std::vector<Candidate> TorqueUnitCandidates(const LogReading& from,
-                                            const TorqueScales& as_logged) {
+void AddTorqueUnit(const LogReading& from, const TorqueScales& as_logged,
+                   const std::vector<bool>& asked,
+                   std::vector<Candidate>* candidates) {
   const double size = as_logged.Size();
   const bool is_other = size > kNotInertia || size < 1 / kNotInertia;
   const double unit =
       is_other && std::isfinite(size) && size > 0 ? 1 / size : 1;
   const double ratio = unit / from.torque_unit;
-  if (ratio < kNotInertia && ratio > 1 / kNotInertia) return {};
+  if (ratio < kNotInertia && ratio > 1 / kNotInertia) return;
   Candidate other{from, {Kind::kTorqueUnit}};
   other.reading.torque_unit = unit;
-  return {other};
+  candidates->push_back(other);
+  for (Candidate& both : WiringCandidates(other.reading, asked)) {
+    candidates->push_back(std::move(both));
+  }
+}
+
+double MisfitAsLogged(const TorqueFit& fit, const LogReading& reading,
+                      const Eigen::MatrixXd& tau, double* percent) {
+  const double misfit = fit.Misfit(tau, percent);
+  if (reading.torque_unit == 1) return misfit;
+  const double count =
+      fit.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols())).sum();
+  return misfit - count * std::log(reading.torque_unit);
 }
 
 LogReading WithTurnedGravity(LogReading reading) {
