@@ -3,6 +3,7 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "calib/diagnose/changes/changes.h"
@@ -19,12 +20,14 @@
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
+#include "calib/logs/stamp_audit.h"
 #include "calib/reconstructed_torques.h"
 #include "calib/robot_outputs.h"
 #include "model/effects/effects.h"
 #include "model/robot_files/controller_reader.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
+#include "model/text/input_text.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
@@ -48,6 +51,30 @@ std::optional<LogSet> Open(const LogInput& input,
                            const LogReaderOptions& reading) {
   if (input.logs.empty()) return std::nullopt;
   return LogSet(input.logs, reading, input.crop);
+}
+
+// Logs whose time is in different units have no bandwidth in common. Where all
+// are in one, the diagnosis says so itself.
+void CheckTimeUnits(const std::vector<const LogSet*>& sets) {
+  std::set<double> units;
+  const std::string* path = nullptr;
+  double slowest = 0;
+  for (const LogSet* logs : sets) {
+    for (int k = 0; logs != nullptr && k < logs->size(); ++k) {
+      const double step = logs->time_bases()[k].median_step;
+      units.insert(TimeUnitOf(step));
+      if (step <= slowest) continue;
+      slowest = step;
+      path = &logs->path(k);
+    }
+  }
+  if (units.size() < 2) return;
+  const std::string name = TimeUnitName(TimeUnitOf(slowest));
+  throw InputError(
+      *path, "", "",
+      "the time is in " + name + ", not in s: its step is " +
+          NumberText(slowest) + " as logged, and no arm is sampled every " +
+          NumberText(slowest) + " s, expected a column t[" + name + "]");
 }
 
 // A calibration's own logs, beside which no reference is given.
@@ -332,6 +359,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
                 &fit);
   const LogSet* held_out = validation ? &*validation : nullptr;
   const LogSet* before = reference ? &*reference : nullptr;
+  CheckTimeUnits({&training, before, held_out});
   const Robot& known = calibrated ? calibrated->robot : robot;
   const std::optional<LogSet> beside = Open(own.input, reading);
   const std::shared_ptr<GapDiagnosis> details =

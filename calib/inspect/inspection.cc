@@ -77,6 +77,7 @@ class Inspector {
                             jumps.end());
     result_.duration = log_.t[log_.size() - 1];
     DescribeMotion();
+    LeaveOutFrozen();
     const UniformSeries series = Series();
     DescribeSpeed(series);
     if (!CanAsk()) {
@@ -100,7 +101,7 @@ class Inspector {
     if (log_.tau.size() == 0) return true;  // nothing is
     return std::none_of(result_.findings.begin(), result_.findings.end(),
                         [](const InspectionFinding& f) {
-                          return f.finding == "stuck" ||
+                          return (f.finding == "stuck" && !f.leads) ||
                                  f.finding == "no_torque" ||
                                  f.finding == "position_jump" ||
                                  f.finding == "missing_time";
@@ -126,6 +127,28 @@ class Inspector {
     if (log_.qref.size() == 0) return;
     result_.tracking_rms =
         (log_.qref - log_.q).colwise().norm() / std::sqrt(log_.size());
+  }
+
+  // Before anything is concluded from them. Of such a column nothing else is
+  // said, but that it is at a limit where it is so in other rows, too.
+  void LeaveOutFrozen() {
+    if (log_.tau.size() == 0) return;
+    result_.frozen = FindFrozenChannels(robot_, log_, Series());
+    if (result_.frozen.empty()) return;
+    const auto findings = FrozenFindings(robot_, log_.t, result_.frozen);
+    log_ = WithoutFrozenRows(log_, result_.frozen);
+    for (const FrozenChannel& run : result_.frozen) {
+      const bool is_at_limit =
+          (log_.tau.col(run.joint).array() == run.value).count() > 1;
+      DropFindings(
+          [&](const InspectionFinding& f) {
+            return IsOf(run, f) && (f.finding == "stuck" ||
+                                    (f.finding == "saturated" && !is_at_limit));
+          },
+          &result_.findings);
+    }
+    result_.findings.insert(result_.findings.begin(), findings.begin(),
+                            findings.end());
   }
 
   UniformSeries Series() const {
@@ -178,12 +201,28 @@ class Inspector {
                            static_cast<double>(series.motion().size());
   }
 
+  // An arm that moves, but never for long between two holes, needs no other
+  // motion.
+  static InspectionFinding NoMotion(const UniformSeries& series) {
+    const double moving = series.num_moving() * series.dt();
+    const double at_gaps = series.num_moving_at_gaps() * series.dt();
+    if (series.num_moving() + series.num_moving_at_gaps() < kLeastMoving) {
+      return {"no_motion", "the arm hardly moves",
+              Format("%.2g s of motion", moving),
+              "record a motion (armcal excite)"};
+    }
+    return {"no_motion",
+            "the holes leave too little motion to ask torques for signs, "
+            "order, units and gravity",
+            Format("of %.3g s of motion %.2g s are farther than %.2g s from a "
+                   "hole",
+                   moving + at_gaps, moving, series.reach()),
+            "log without losses"};
+  }
+
   void ReadTorques(const UniformSeries& series) {
     if (series.num_moving() < kLeastMoving) {
-      result_.findings.push_back(
-          {"no_motion", "the arm hardly moves",
-           Format("%.2g s of motion", series.num_moving() * series.dt()),
-           "record a motion (armcal excite)"});
+      result_.findings.push_back(NoMotion(series));
       return;
     }
     if (log_.tau.size() == 0) {
@@ -202,18 +241,22 @@ class Inspector {
     const std::vector<bool> opposite = OppositeVelocities(log_);
     BelieveVelocities(opposite, &found);
     MergeTorqueSigns(&found.changes);
+    DropTorqueUnit(&found.changes);
     result_.reading = found.reading;
     DropRightVelocities(opposite);
-    result_.as_it_is = found.changes.empty() && !result_.clock.wrong();
+    result_.as_it_is = found.changes.empty() && !result_.clock.wrong() &&
+                       result_.frozen.empty();
     result_.residual_percent = found.residual_percent;
     for (const ReadingChange& change : found.changes) {
       result_.findings.push_back(FindingOf(change, found.reading, robot_));
     }
     AddUnsigned(series);
     Robot robot = robot_;
-    robot.gravity = found.reading.gravity;
+    LogReading as_logged = found.reading;
+    as_logged.torque_unit = 1;
+    robot.gravity = as_logged.gravity;
     const WiringSamples samples =
-        SamplesAs(found.reading, robot_, series, kSamples);
+        SamplesAs(as_logged, robot_, series, kSamples);
     result_.torque_scales = TorqueScale(robot, samples);
     // What is wrong with the log would be asked of the file's bodies, too.
     if (result_.as_it_is) {
@@ -362,7 +405,7 @@ Log Mended(const Robot& robot, const Log& recorded,
     mended.tau.col(j) = reading.wiring.torque_sign[j] *
                         log.tau.col(reading.wiring.torque_column[j]);
   }
-  return mended;
+  return WithoutFrozenRows(mended, inspection.frozen);
 }
 
 }  // namespace armcal

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/inspect/frozen_channels.h"
 #include "calib/inspect/log_coverage.h"
 #include "calib/inspect/log_drawing.h"
 #include "calib/inspect/log_reading.h"
@@ -28,11 +29,12 @@ struct LogInspection {
   SampleClock clock;
   bool rebuilds_time = false;  // the log fits better by the clock's time
   LogJumps jumps;
-  std::string spelling;       // LogReader's
-  std::string torque_source;  // empty: none, but commands or currents
-  UnscaledDrives unscaled;    // currents or voltages without constants
-  Eigen::VectorXd travel;     // per joint, rad or m
-  Eigen::VectorXd top_speed;  // rad/s or m/s
+  std::vector<FrozenChannel> frozen;  // rows that are left out
+  std::string spelling;               // LogReader's
+  std::string torque_source;          // empty: none, but commands or currents
+  UnscaledDrives unscaled;            // currents or voltages without constants
+  Eigen::VectorXd travel;             // per joint, rad or m
+  Eigen::VectorXd top_speed;          // rad/s or m/s
   // Rms of command minus position, rad or m; empty where no command is logged.
   Eigen::VectorXd tracking_rms;
   TorqueScales torque_scales;   // empty where no torque was read

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "calib/numerics/autoregression.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/text/format.h"
 
@@ -103,15 +104,6 @@ class FreedTorque {
   VectorXd recorded_;
   double least_ = 0;
 };
-
-// How many independent samples a series that is correlated from one to the next
-// by r comes to, as of an autoregression of the first order: n (1-r) / (1+r).
-double IndependentSamples(const VectorXd& x) {
-  const Eigen::Index n = x.size();
-  const double r = std::clamp(
-      x.head(n - 1).dot(x.tail(n - 1)) / (x.squaredNorm() + 1e-300), 0., .99);
-  return static_cast<double>(n) * (1 - r) / (1 + r);
-}
 
 class ZeroComparison {
  public:

@@ -53,10 +53,16 @@ std::string TooShort(const LogSet& logs) {
   };
   if (has_rows(LogPart::AnyFold())) return "";
   const bool refused = !has_rows(LogPart());
+  const SplittingGaps gaps = GapsThatSplit(bandwidth_hz, logs);
+  const std::string split =
+      gaps.count == 0 ? ""
+                      : ", and " + gaps.Text() + " split" +
+                            (gaps.count == 1 ? "s" : "") + " this log there";
   return std::string("too short for armcal diagnose") +
          (refused ? "" : " to hold some of it out") +
          Format(": %.3g s in motion without a gap are needed at %.3g Hz",
                 GapRows::ShortestSplit(bandwidth_hz), bandwidth_hz) +
+         split +
          (refused ? "" : ", or another log as " + OptionName("validate"));
 }
 

@@ -11,6 +11,7 @@
 #include "calib/inspect/held_out_fit.h"
 #include "calib/inspect/reading_candidates.h"
 #include "calib/inspect/torque_delay.h"
+#include "calib/inspect/torque_scale.h"
 #include "calib/inspect/turned_gravity.h"
 #include "model/robot/axis_rotation.h"
 
@@ -85,7 +86,13 @@ class Reader {
     return SamplesAs(reading, robot_, series_, samples_);
   }
   double Misfit(const LogReading& reading, double* percent = nullptr) const {
-    return FitOf(reading).Misfit(SamplesOf(reading).tau, percent);
+    const WiringSamples samples = SamplesOf(reading);
+    return MisfitAsLogged(FitOf(reading), reading, samples.tau, percent);
+  }
+
+  TorqueScales ScalesOf(LogReading reading) const {
+    reading.torque_unit = 1;
+    return TorqueScale(RobotOf(reading), SamplesOf(reading));
   }
 
   // Of which joints signs and order are asked.
@@ -110,6 +117,7 @@ class Reader {
         all.push_back(candidate);
       }
     }
+    AddTorqueUnit(best_, ScalesOf(best_), Asked(), &all);
     for (Candidate& candidate : UnitCandidates(best_, robot_)) {
       all.push_back(std::move(candidate));
     }
@@ -147,7 +155,7 @@ class Reader {
       const WiringSamples samples = SamplesOf(reading);
       if (k == 0 || !MoveAlike(reading, all[k - 1].reading))
         fit.emplace(RobotOf(reading), samples.motion);
-      misfits.push_back(fit->Misfit(samples.tau));
+      misfits.push_back(MisfitAsLogged(*fit, reading, samples.tau));
     }
     return misfits;
   }
@@ -169,6 +177,7 @@ class Reader {
       if (asked[kind]++ >= kMostAsked) continue;
       const HeldOutFit held_out = HeldOut(all[k].reading);
       if (!Confirms(all[k], held_out)) continue;
+      if (!IsBesideUnit(k, held_out, misfits, all)) continue;
       // Gravity turned gives joints that carry nothing a load to be fitted to:
       // where what concerns one joint explains as much, it is that.
       if (kind == Kind::kGravity) {
@@ -181,6 +190,24 @@ class Reader {
     }
     if (gravity) Take(gravity->first, gravity->second, misfits, &all);
     return gravity.has_value();
+  }
+
+  // What comes with another unit of torques explains more than that alone.
+  bool IsBesideUnit(size_t k, const HeldOutFit& held_out,
+                    const std::vector<double>& misfits,
+                    const std::vector<Candidate>& all) {
+    const bool is_both = all[k].change.kind != Kind::kTorqueUnit &&
+                         all[k].reading.torque_unit != best_.torque_unit;
+    for (size_t i = 0; is_both && i < all.size(); ++i) {
+      if (all[i].change.kind != Kind::kTorqueUnit) continue;
+      if (!(misfits[k] < misfits[i] - kLeastGain)) return false;
+      const HeldOutFit as_is = held_out_;
+      held_out_ = HeldOut(all[i].reading);
+      const bool confirmed = Confirms(all[k], held_out);
+      held_out_ = as_is;
+      return confirmed;
+    }
+    return true;
   }
 
   void Take(size_t k, const HeldOutFit& held_out,
@@ -213,6 +240,12 @@ class Reader {
     // ../shared/data with all torques negated it is likelier so in 97, by 107
     // to 5000 nats, and in the 98th, where it is not, this confirms neither.
     if (IsAllSigns(change.kind) && all_fit_better) return true;
+    // Free inertias take half of a wrong sign's misfit in slow motion; the
+    // file's own, which are opposite to all torques then, do not.
+    if (change.kind == Kind::kAllTorqueSigns && ScalesOf(best_).AreOpposite() &&
+        held_out.residual_percent < held_out_.residual_percent) {
+      return true;
+    }
     // Columns of single joints stand in the motion of all: what is wrong with
     // them shows in the torques of others, too. That of a joint which hardly
     // works may fit better by chance, and a direction of gravity or a unit is
@@ -378,19 +411,6 @@ class Reader {
 };
 
 }  // namespace
-
-WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
-                        const UniformSeries& series, int count) {
-  WiringSamples samples =
-      Rewired(series.Pick(count, reading.delay), reading.wiring);
-  for (int j = 0; reading.units.any() && j < robot.num_joints(); ++j) {
-    const double unit = reading.units.Of(robot.links[j].joint);
-    samples.motion.q.col(j) *= unit;
-    samples.motion.qd.col(j) *= unit;
-    samples.motion.qdd.col(j) *= unit;
-  }
-  return samples;
-}
 
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
                            const ReadingHints& hints) {

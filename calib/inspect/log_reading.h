@@ -6,15 +6,9 @@
 
 #include "calib/inspect/reading_change.h"
 #include "calib/logs/uniform_series.h"
-#include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
-
-// At most `count` samples as the robot's joints have them if that is the
-// reading, in SI units.
-WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
-                        const UniformSeries& series, int count);
 
 // What is known of a log beside its motion and torques.
 struct ReadingHints {

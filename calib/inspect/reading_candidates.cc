@@ -1,6 +1,7 @@
 #include "calib/inspect/reading_candidates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace armcal {
@@ -85,6 +86,32 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
   if (turns) all.push_back(InOtherUnit(from, Kind::kDegrees));
   if (slides) all.push_back(InOtherUnit(from, Kind::kMillimetres));
   return all;
+}
+
+void AddTorqueUnit(const LogReading& from, const TorqueScales& as_logged,
+                   const std::vector<bool>& asked,
+                   std::vector<Candidate>* candidates) {
+  const double size = as_logged.Size();
+  const bool is_other = size > kNotInertia || size < 1 / kNotInertia;
+  const double unit =
+      is_other && std::isfinite(size) && size > 0 ? 1 / size : 1;
+  const double ratio = unit / from.torque_unit;
+  if (ratio < kNotInertia && ratio > 1 / kNotInertia) return;
+  Candidate other{from, {Kind::kTorqueUnit}};
+  other.reading.torque_unit = unit;
+  candidates->push_back(other);
+  for (Candidate& both : WiringCandidates(other.reading, asked)) {
+    candidates->push_back(std::move(both));
+  }
+}
+
+double MisfitAsLogged(const TorqueFit& fit, const LogReading& reading,
+                      const Eigen::MatrixXd& tau, double* percent) {
+  const double misfit = fit.Misfit(tau, percent);
+  if (reading.torque_unit == 1) return misfit;
+  const double count =
+      fit.InMotion(Eigen::MatrixXd::Ones(tau.rows(), tau.cols())).sum();
+  return misfit - count * std::log(reading.torque_unit);
 }
 
 LogReading WithTurnedGravity(LogReading reading) {

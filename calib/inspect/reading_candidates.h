@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "calib/inspect/reading_change.h"
+#include "calib/inspect/torque_scale.h"
 
 namespace armcal {
 
@@ -27,6 +28,23 @@ Candidate InOtherUnit(const LogReading& from, ReadingChange::Kind kind);
 // The same of both units, of joints that turn and slide, if there are some.
 std::vector<Candidate> UnitCandidates(const LogReading& from,
                                       const Robot& robot);
+
+// Torques that are divided by how many times those that the file's links need
+// they are, where no inertias near the file's would be (kNotInertia): alone,
+// and with each of WiringCandidates, as a sign or an order may show in the
+// right unit alone. A sign that is asked of torques a thousand times as large
+// is one of an arm that no file describes: the bodies of the fit, which stay
+// near the file's, explain next to nothing of them, and another sign or
+// direction may explain more than that by chance.
+void AddTorqueUnit(const LogReading& from, const TorqueScales& as_logged,
+                   const std::vector<bool>& asked,
+                   std::vector<Candidate>* candidates);
+
+// TorqueFit's misfit of torques `tau` as the reading has them, as that of those
+// that are logged: log p(tau / u) is that of tau plus log u for each of them, u
+// being the reading's unit.
+double MisfitAsLogged(const TorqueFit& fit, const LogReading& reading,
+                      const Eigen::MatrixXd& tau, double* percent = nullptr);
 
 // Gravity of that size, m/s^2, along each axis of the world, and none.
 std::vector<Candidate> GravityCandidates(const LogReading& from,

@@ -21,6 +21,20 @@ bool IsOfOneSignal(Kind kind) {
 
 }  // namespace
 
+WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
+                        const UniformSeries& series, int count) {
+  WiringSamples samples =
+      Rewired(series.Pick(count, reading.delay), reading.wiring);
+  samples.tau *= reading.torque_unit;
+  for (int j = 0; reading.units.any() && j < robot.num_joints(); ++j) {
+    const double unit = reading.units.Of(robot.links[j].joint);
+    samples.motion.q.col(j) *= unit;
+    samples.motion.qd.col(j) *= unit;
+    samples.motion.qdd.col(j) *= unit;
+  }
+  return samples;
+}
+
 bool IsOneSign(Kind kind) {
   return kind == Kind::kPositionSign || kind == Kind::kTorqueSign;
 }
@@ -75,6 +89,14 @@ void MergeTorqueSigns(std::vector<ReadingChange>* changes) {
   std::sort(merged.but.begin(), merged.but.end());
   others.insert(others.begin(), merged);
   *changes = others;
+}
+
+void DropTorqueUnit(std::vector<ReadingChange>* changes) {
+  changes->erase(std::remove_if(changes->begin(), changes->end(),
+                                [](const ReadingChange& c) {
+                                  return c.kind == Kind::kTorqueUnit;
+                                }),
+                 changes->end());
 }
 
 bool MoveAlike(const LogReading& a, const LogReading& b) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calib/inspect/position_unit.h"
+#include "calib/logs/uniform_series.h"
 #include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
 
@@ -16,10 +17,16 @@ struct LogReading {
   PositionUnits units;
   Eigen::Vector3d gravity;  // in W, m/s^2; 0: torques hold no gravity
   double delay = 0;         // of torques behind positions, s
+  double torque_unit = 1;   // N m or N of a torque of 1 as logged
 
   explicit LogReading(const Robot& robot)
       : wiring(robot.num_joints()), gravity(robot.gravity) {}
 };
+
+// At most `count` samples as the robot's joints have them if that is the
+// reading, in SI units.
+WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
+                        const UniformSeries& series, int count);
 
 // One thing by which the best reading differs from the log as it is.
 struct ReadingChange {
@@ -35,7 +42,8 @@ struct ReadingChange {
     kDegrees,
     kMillimetres,
     kGravity,  // has another direction, or is missing
-    kDelay
+    kDelay,
+    kTorqueUnit
   };
   Kind kind;
   int joint = -1, other = -1;  // from 0
@@ -65,6 +73,8 @@ std::vector<int> JointsOf(const ReadingChange& change);
 // All torques turned round and some of them turned round once more are all
 // torques but those: one change, of which no part is false.
 void MergeTorqueSigns(std::vector<ReadingChange>* changes);
+// A unit that signs and order are asked in is told by FindTorqueUnits, or not.
+void DropTorqueUnit(std::vector<ReadingChange>* changes);
 // Whether joints move alike in both, whatever their torques.
 bool MoveAlike(const LogReading& a, const LogReading& b);
 

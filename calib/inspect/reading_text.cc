@@ -148,6 +148,10 @@ InspectionFinding FindingOf(const ReadingChange& change,
                                 reading.delay > 0 ? "after" : "before");
       finding.remedy = "shift the torques by that time";
       break;
+    case Kind::kTorqueUnit:
+      finding.finding = "torque_unit";
+      finding.sentence = "the torques are in another unit than N m";
+      break;
   }
   return finding;
 }

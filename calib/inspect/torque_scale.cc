@@ -99,6 +99,28 @@ void Tell(int j, TorqueScales* scales) {
 
 }  // namespace
 
+double TorqueScales::Size() const {
+  std::vector<double> sizes;
+  for (size_t j = 0; j < asked.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    const double size = recorded.col(column).norm();
+    if (asked[j] && size > 0) {
+      sizes.push_back(size / needed.col(column).norm());
+    }
+  }
+  return sizes.empty() ? 0 : Median(sizes);
+}
+
+bool TorqueScales::AreOpposite() const {
+  int count = 0;
+  for (int j = 0; j < scale.size(); ++j) {
+    if (!told(j)) continue;
+    if (!(high[j] < 0)) return false;
+    ++count;
+  }
+  return count > 1;
+}
+
 double TorqueScales::Left(int joint, double unit) const {
   const VectorXd y = recorded.col(joint) / unit;
   return (y - needed.col(joint)).norm() / y.norm();
@@ -122,9 +144,9 @@ TorqueScales TorqueScale(const Robot& robot, const WiringSamples& samples) {
     // What a joint at rest needs follows from the others' motion alone.
     const bool moves =
         motion.qd.col(j).norm() > kFrictionTurns * std::sqrt(motion.size());
-    if (moves && sizes[j] > kHardlyAnyTorque * sizes.maxCoeff()) {
-      Tell(j, &scales);
-    }
+    scales.asked.push_back(moves &&
+                           sizes[j] > kHardlyAnyTorque * sizes.maxCoeff());
+    if (scales.asked[j]) Tell(j, &scales);
   }
   return scales;
 }

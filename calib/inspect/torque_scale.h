@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <vector>
 
 #include "calib/logs/wiring.h"
 #include "model/robot/robot.h"
@@ -25,10 +26,17 @@ struct TorqueScales {
   Eigen::VectorXd low, high;
   // x_j and tau_j freed of the other terms, N m or N, samples x n.
   Eigen::MatrixXd needed, recorded;
+  std::vector<bool> asked;  // of joints that move and need a torque
 
   bool told(int joint) const {
     return scale.size() > joint && std::isfinite(scale[joint]);
   }
+  // Of all joints that are driven and need a torque, told or not: the median of
+  // rms recorded over rms needed, which no wrong sign changes. 0: of none.
+  double Size() const;
+  // Whether the torques of all joints that are told, two at least, are opposite
+  // to what the file's links need.
+  bool AreOpposite() const;
   // Rms that needed leaves of recorded / unit, over the rms of recorded / unit.
   double Left(int joint, double unit) const;
 };

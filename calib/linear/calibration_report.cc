@@ -188,6 +188,15 @@ std::string LengthTable(const LinearCalibration& result) {
   return text;
 }
 
+// Of n samples of a motion that has all speeds up to its rms v alike, n w / v
+// are slower than w. Where that is less than one sample, friction that changes
+// sign over w is the same as one that changes it at once.
+double SlowestSpeed(const LinearCalibration& result, int joint) {
+  if (!result.training || joint >= result.mean_square_speed.size()) return 0;
+  const auto samples = static_cast<double>(result.training->samples());
+  return samples > 0 ? std::sqrt(result.mean_square_speed[joint]) / samples : 0;
+}
+
 std::string TransitionTable(const Robot& robot,
                             const LinearCalibration& result) {
   if (result.transitions.empty()) return "";
@@ -196,7 +205,9 @@ std::string TransitionTable(const Robot& robot,
     const CoulombTransition& t = result.transitions[i];
     const Joint& joint = robot.links[i].joint;
     const bool velocity = t.law == CoulombTransition::Law::kVelocity;
-    text += Format("  %-20s %.3g %s%s\n", joint.name.c_str(), t.width,
+    const double told = velocity ? SlowestSpeed(result, i) : 0;
+    text += Format("  %-20s %s%.3g %s%s\n", joint.name.c_str(),
+                   t.width < told ? "less than " : "", std::max(t.width, told),
                    PositionUnit(joint.type),
                    velocity ? "/s (tanh)" : " (holds its torque at rest)");
   }

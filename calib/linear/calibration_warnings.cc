@@ -202,6 +202,11 @@ void WarnOfNegative(const Robot& robot, const LinearCalibration& result,
     tell("inertia (with armature)", inertia, JointTerm::kArmature);
     tell("viscous friction", EstimateOf(u, result), JointTerm::kViscous);
     tell("Coulomb friction", EstimateOf(v, result), JointTerm::kCoulomb);
+    // Where the motion tells it from the links' inertia, which may outweigh it.
+    const Eigen::VectorXd a = ColumnsOf(JointTerm::kArmature, j, parameters);
+    if (!inertia.IsNegative()) {
+      tell("armature", EstimateOf(a, result), JointTerm::kArmature);
+    }
     if (told.empty()) continue;
     sentences->push_back(joint.name + ": " + Enumeration(told) +
                          (told.size() > 1 ? " are" : " is") +

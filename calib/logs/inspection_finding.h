@@ -20,6 +20,7 @@ struct InspectionFinding {
   double held_out_before = 0, held_out_after = 0;
   // What may be wrong instead: `finding` and `joint`.
   std::vector<std::pair<std::string, int>> alternatives{};
+  bool leads = false;  // a diagnosis begins with it, and names nothing
 };
 
 // Those of which `is_out` is true are taken out.

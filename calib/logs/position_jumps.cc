@@ -66,6 +66,68 @@ std::vector<PositionJumps::Step> TakeWraps(const VectorXd& q,
   return wraps;
 }
 
+// Whether a joint is off its way at a spike's rows, beyond both rows around
+// them, between which it goes as fast as it may in motion (FindJumps' five
+// times the usual speed). Where time is missing it is ahead on its way.
+bool IsOffItsWay(const PositionSpike& spike, const VectorXd& t,
+                 const VectorXd& q, double usual_speed) {
+  if (spike.begin == 0 || spike.end == q.size()) return false;
+  const double before = q[spike.begin - 1], after = q[spike.end];
+  const auto rows = q.segment(spike.begin, spike.end - spike.begin).array();
+  const bool is_beyond = (rows < std::min(before, after)).all() ||
+                         (rows > std::max(before, after)).all();
+  return is_beyond && std::abs(after - before) <
+                          5 * usual_speed * (t[spike.end] - t[spike.begin - 1]);
+}
+
+// A row that a logger made up is wrong in all columns, and one of them may be
+// there where its value is near by chance: zeros in a joint that is about to
+// pass zero. Going there is no jump then, or coming back is none, and what is
+// left looks like a zero that was lost, or, at an end of a log, like good rows
+// that are wrong. So where another joint has a spike, this one's jumps to these
+// rows and from them are part of it, if on the line between the rows around it
+// has none there.
+void TakeOthersSpikes(const std::vector<std::vector<PositionSpike>>& found,
+                      const VectorXd& t, const VectorXd& q, size_t j,
+                      PositionSteps* left, std::vector<PositionSpike>* own) {
+  for (size_t other = 0; other < found.size(); ++other) {
+    if (other == j) continue;
+    for (const PositionSpike& spike : found[other]) {
+      const auto is_at_it = [&](int k) {
+        return spike.begin <= k + 1 && k + 1 <= spike.end;
+      };
+      const auto is_more = [&](const PositionSpike& one) {
+        return one.begin <= spike.begin && spike.end <= one.end &&
+               (is_at_it(one.begin - 1) || is_at_it(one.end - 1)) &&
+               one.end - one.begin > spike.end - spike.begin;
+      };
+      auto& jumps = left->jumps;
+      const auto step = std::find_if(jumps.begin(), jumps.end(), is_at_it);
+      const auto part = std::find_if(own->begin(), own->end(), is_more);
+      if (step == jumps.end() && part == own->end()) continue;
+      VectorXd bridged = q;
+      Bridge(spike, t, bridged);
+      const std::vector<int> still = FindJumps(t, bridged).jumps;
+      const auto is_of_part = [&](int k) {
+        return part != own->end() &&
+               (k + 1 == part->begin || k + 1 == part->end);
+      };
+      if (!IsOffItsWay(spike, t, q, left->usual_speed) ||
+          std::any_of(still.begin(), still.end(),
+                      [&](int k) { return is_at_it(k) || is_of_part(k); })) {
+        continue;
+      }
+      jumps.erase(std::remove_if(jumps.begin(), jumps.end(), is_at_it),
+                  jumps.end());
+      own->erase(std::remove_if(own->begin(), own->end(), is_more), own->end());
+      own->push_back(
+          {spike.begin, spike.end, q[spike.begin] - q[spike.begin - 1]});
+    }
+  }
+  std::sort(own->begin(), own->end(),
+            [](const auto& a, const auto& b) { return a.begin < b.begin; });
+}
+
 }  // namespace
 
 LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
@@ -83,12 +145,16 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
       of_joint.wraps = TakeWraps(q, &steps);
     }
     of_joint.spikes = TakeSpikes(t, q, {}, &steps);
-    for (const PositionSpike& spike : of_joint.spikes) {
-      Bridge(spike, t, mended.q.col(j));
-    }
     spikes.push_back(of_joint.spikes);
     left.push_back(steps);
     found.joints.push_back(of_joint);
+  }
+  const std::vector<std::vector<PositionSpike>> of_each = spikes;
+  for (size_t j = 0; j < spikes.size(); ++j) {
+    auto q = mended.q.col(static_cast<Eigen::Index>(j));
+    TakeOthersSpikes(of_each, t, q, j, &left[j], &spikes[j]);
+    for (const PositionSpike& spike : spikes[j]) Bridge(spike, t, q);
+    found.joints[j].spikes = spikes[j];
   }
   found.wrong_rows = WrongRows(spikes);
   std::set<int> missing;

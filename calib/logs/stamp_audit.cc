@@ -56,6 +56,18 @@ void SayOfStops(const StampFigures& stamps,
 
 }  // namespace
 
+double TimeUnitOf(double step) {
+  // Arms are logged every 0.1 ms to 0.25 s.
+  constexpr double kSlowest = .25;
+  double unit = 1;
+  while (step * unit > kSlowest && unit > 1e-9) unit /= 1000;
+  return unit;
+}
+
+const char* TimeUnitName(double unit) {
+  return unit == 1 ? "s" : unit == 1e-3 ? "ms" : unit > 5e-7 ? "us" : "ns";
+}
+
 StampFigures AuditStamps(const Log& log) {
   StampFigures figures;
   std::vector<double> steps = Steps(log);
@@ -65,11 +77,7 @@ StampFigures AuditStamps(const Log& log) {
   if (steps.empty()) return figures;
   figures.step = Quantile(steps, .2);
   figures.longest_gap = *std::max_element(steps.begin(), steps.end());
-  // Arms are logged every 0.1 ms to 0.25 s.
-  constexpr double kSlowest = .25;
-  while (figures.step * figures.unit > kSlowest && figures.unit > 1e-9) {
-    figures.unit /= 1000;
-  }
+  figures.unit = TimeUnitOf(figures.step);
   double between = 0;
   for (const double step : steps) {
     if (IsHole(step * figures.unit, figures.step * figures.unit)) {
@@ -112,9 +120,7 @@ std::vector<InspectionFinding> StampFindings(const StampFigures& stamps,
                                              int rows) {
   std::vector<InspectionFinding> findings;
   if (stamps.unit != 1) {
-    const char* name = stamps.unit == 1e-3   ? "ms"
-                       : stamps.unit == 1e-6 ? "us"
-                                             : "ns";
+    const char* name = TimeUnitName(stamps.unit);
     findings.push_back(
         {"time_unit", std::string("the time is in ") + name + ", not in s",
          Format("steps of %.4g as logged: no arm is sampled every %.4g s",

@@ -7,6 +7,11 @@
 
 namespace armcal {
 
+// By which stamps with such steps have to be multiplied to be seconds: 1, or
+// 1e-3, 1e-6, 1e-9 where no arm is logged that slowly. And what that is called.
+double TimeUnitOf(double step);
+const char* TimeUnitName(double unit);
+
 // What the stamps of a log are like.
 struct StampFigures {
   double step = 0;        // s, the shortest usual one
@@ -21,9 +26,7 @@ struct StampFigures {
   // Steps over three usual ones and over kHole: they split the log.
   long holes = 0;
   double hole_time = 0;  // s, of all of them
-  // By which stamps have to be multiplied to be seconds: 1, or 1e-3, 1e-6, 1e-9
-  // where no arm is logged that slowly.
-  double unit = 1;
+  double unit = 1;       // TimeUnitOf
 };
 StampFigures AuditStamps(const Log& log);
 

@@ -32,7 +32,7 @@ MatrixXd Interpolated(const VectorXd& stamps, const MatrixXd& values,
 
 UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
                              double bandwidth_hz)
-    : dt_(dt) {
+    : dt_(dt), bandwidth_hz_(bandwidth_hz) {
   const int size =
       1 + static_cast<int>((log.t[log.size() - 1] - log.t[0]) / dt);
   const VectorXd times =
@@ -47,25 +47,26 @@ UniformSeries::UniformSeries(const Log& log, double dt, double longest_gap,
     tau_ = ZeroPhaseLowPass(Interpolated(log.t, log.tau, times), 1 / dt,
                             bandwidth_hz);
   }
-  const int reach =
-      static_cast<int>(std::ceil((1 / bandwidth_hz + kLongestDelay) / dt));
+  reach_ = static_cast<int>(std::ceil((1 / bandwidth_hz + kLongestDelay) / dt));
   Eigen::Array<bool, Eigen::Dynamic, 1> out =
       FindStandstill(MeanVelocity(motion_.q, dt), dt,
                      static_cast<int>(kStandstillMeanTime / dt / 2));
   const auto leave_out = [&](double begin, double end) {
-    const int first = static_cast<int>((begin - log.t[0]) / dt) - reach;
-    const int last = static_cast<int>((end - log.t[0]) / dt) + reach;
+    const int first = static_cast<int>((begin - log.t[0]) / dt) - reach_;
+    const int last = static_cast<int>((end - log.t[0]) / dt) + reach_;
     for (int s = std::max(0, first); s <= std::min(size - 1, last); ++s) {
       out[s] = true;
     }
   };
   leave_out(log.t[0], log.t[0]);
   leave_out(log.t[log.size() - 1], log.t[log.size() - 1]);
+  const auto before = (!out).count();
   for (int k = 0; k + 1 < log.size(); ++k) {
     if (log.t[k + 1] - log.t[k] > longest_gap) {
       leave_out(log.t[k], log.t[k + 1]);
     }
   }
+  moving_at_gaps_ = static_cast<int>(before - (!out).count());
   for (int s = 0; s < size; ++s) {
     if (!out[s]) moving_.push_back(s);
   }

@@ -24,7 +24,12 @@ class UniformSeries {
                 double bandwidth_hz);
 
   double dt() const { return dt_; }
+  double bandwidth_hz() const { return bandwidth_hz_; }
   int num_moving() const { return static_cast<int>(moving_.size()); }
+  // Rows at which the arm moves, but too near to gaps.
+  int num_moving_at_gaps() const { return moving_at_gaps_; }
+  // s on both sides of gaps and at the ends.
+  double reach() const { return reach_ * dt_; }
   // Low-passed, rows on the grid.
   const Motion& motion() const { return motion_; }
   const Eigen::MatrixXd& tau() const { return tau_; }
@@ -34,10 +39,11 @@ class UniformSeries {
   WiringSamples Pick(int count, double delay) const;
 
  private:
-  double dt_;
+  double dt_, bandwidth_hz_;
   Motion motion_;
   Eigen::MatrixXd tau_;
   std::vector<int> moving_;
+  int moving_at_gaps_ = 0, reach_ = 0;
 };
 
 }  // namespace armcal

@@ -168,6 +168,13 @@ Autoregression FitYuleWalker(const std::vector<VectorXd>& stretches) {
   return r[0] > 0 ? FromCovariance(r / samples) : Autoregression();
 }
 
+double IndependentSamples(const VectorXd& x) {
+  const Eigen::Index n = x.size();
+  const double r = std::clamp(
+      x.head(n - 1).dot(x.tail(n - 1)) / (x.squaredNorm() + 1e-300), 0., .99);
+  return static_cast<double>(n) * (1 - r) / (1 + r);
+}
+
 std::vector<Autoregression> WhiteNoise(const MatrixXd& x) {
   constexpr double kLeast = 1e-12;  // where there is none
   std::vector<Autoregression> noise(x.cols());

@@ -35,6 +35,10 @@ Autoregression FitAutoregression(const std::vector<Eigen::VectorXd>& stretches,
 // spectrum do not resolve: for what a model leaves, not for noise alone.
 Autoregression FitYuleWalker(const std::vector<Eigen::VectorXd>& stretches);
 
+// How many independent samples a series that is correlated from one to the next
+// by r comes to, as of an autoregression of the first order: n (1-r) / (1+r).
+double IndependentSamples(const Eigen::VectorXd& x);
+
 // White noise as large as each column of x.
 std::vector<Autoregression> WhiteNoise(const Eigen::MatrixXd& x);
 

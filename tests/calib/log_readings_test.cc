@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calib/diagnose.h"
+#include "model/text/input_error.h"
 #include "tests/fixtures/inspected_arm.h"
 
 namespace armcal::log_readings_test {
@@ -96,6 +97,71 @@ TEST_F(LogReadingsTest, AReferenceInAnotherUnitIsTold) {
   Log loaded = arm_.log;
   loaded.tau *= 2;
   EXPECT_THAT(Diagnosis(loaded, &arm_.log).brief, Not(HasSubstr("unit")));
+}
+
+// Of a torque with few values no sign is asked by itself; a reference that has
+// the other one tells it.
+TEST_F(LogReadingsTest, AReferenceWithTheOtherSignIsTold) {
+  const Log reference = arm_.log;
+  const double quantum = .3 * ColumnRms(arm_.log.tau)[1];
+  arm_.log.tau.col(1) =
+      -(arm_.log.tau.col(1).array() / quantum).round() * quantum;
+  const DiagnoseSummary summary = Diagnosis(arm_.log, &reference);
+  EXPECT_EQ(summary.verdict, "not_testable");
+  EXPECT_THAT(summary.brief,
+              HasSubstr("the torque of joint2 has one sign in reference.csv "
+                        "and the other in log.csv"));
+}
+
+// What a log and its reference differ in is the time, not a flag.
+TEST_F(LogReadingsTest, TimeInAnotherUnitThanTheReferencesIsRefused) {
+  Log slow = arm_.log;
+  slow.t *= 1000;
+  for (const bool is_reference : {false, true}) {
+    try {
+      is_reference ? Diagnosis(arm_.log, &slow) : Diagnosis(slow, &arm_.log);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("the time is in ms, not in s"));
+      EXPECT_THAT(error.what(), HasSubstr("a column t[ms]"));
+      EXPECT_THAT(error.what(), Not(HasSubstr("bandwidth")));
+    }
+  }
+}
+
+// Two rows of 29 are lost: 20 s of motion, and no 2 s without a gap.
+TEST_F(LogReadingsTest, GapsAreNamedWhereTheyLeaveNothing) {
+  std::vector<int> rows;
+  for (int k = 0; k < arm_.log.size(); ++k) {
+    if (k % 29 > 1) rows.push_back(k);
+  }
+  Log log;
+  log.t = arm_.log.t(rows);
+  for (int k = 0; k + 1 < log.size(); ++k) {
+    if (rows[k + 1] - rows[k] > 1) log.t[k] -= 5e-4;  // 30.5 ms
+  }
+  log.q = arm_.log.q(rows, Eigen::all);
+  log.tau = arm_.log.tau(rows, Eigen::all);
+  try {
+    Diagnosis(log, nullptr);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no motion is left of it between its"));
+    EXPECT_THAT(error.what(), HasSubstr("`bandwidth`=8, for which these gaps"));
+  }
+}
+
+// Zeros of half a second lead the diagnosis, and are no touch.
+TEST_F(LogReadingsTest, ATorqueThatWasNotRecordedIsNoTouch) {
+  Log log = arm_.log;
+  log.qd.resize(0, 0);
+  Eigen::Index at = 0;
+  log.tau.col(1).segment(200, 1500).cwiseAbs().maxCoeff(&at);
+  log.tau.col(1).segment(at + 175, 50).setZero();
+  const DiagnoseSummary summary = Diagnosis(log, &arm_.log);
+  EXPECT_THAT(summary.brief, HasSubstr("the torque of joint2 is stuck at 0"));
+  EXPECT_EQ(summary.verdict, "not_testable");
+  EXPECT_TRUE(summary.effects.empty());
 }
 
 // Degrees would be friction and a clock of another rate.

@@ -7,6 +7,7 @@
 
 #include "calib/diagnose/data/thresholds.h"
 #include "model/signals/low_pass.h"
+#include "model/text/format.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
 #include "model/text/option_name.h"
@@ -344,6 +345,28 @@ std::vector<int> GapRows::SampleOfRow(int joint) const {
   return samples;
 }
 
+SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs) {
+  SplittingGaps found;
+  for (const TimeBase& base : logs.time_bases()) {
+    for (const TimeRange& gap : base.gaps) {
+      const double step = gap.end - gap.begin;
+      if (step <= kGapPeriods / bandwidth_hz) continue;
+      ++found.count;
+      found.longest = std::max(found.longest, step);
+    }
+  }
+  return found;
+}
+
+std::string SplittingGaps::Text() const {
+  return count == 1 ? Format("its gap of %.3g s", longest)
+                    : Format("its %ld gaps of up to %.3g s", count, longest);
+}
+
+double SplittingGaps::BridgingBandwidth() const {
+  return std::floor(kGapPeriods / longest);
+}
+
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
                  const LogSet& logs) {
   if (GapRows(segments, bandwidth_hz).num_rows() > 0) return;
@@ -352,12 +375,21 @@ void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
       kShortestSegment,
       (2 * GapRows::kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) /
           bandwidth_hz);
+  const SplittingGaps gaps = GapsThatSplit(bandwidth_hz, logs);
+  std::string remedy = "or a higher " + OptionName("bandwidth") + " than " +
+                       NumberText(bandwidth_hz) + " Hz";
+  if (gaps.count > 0 && gaps.BridgingBandwidth() >= 1) {
+    remedy = "or " + OptionName("bandwidth") + "=" +
+             NumberText(gaps.BridgingBandwidth()) +
+             ", for which these gaps are bridged";
+  }
   throw InputError(logs.path(0), "", "",
-                   "no motion is left of it, expected " +
-                       NumberText(std::ceil(10 * needed) / 10) +
-                       " s of it without gap or standstill, or a higher " +
-                       OptionName("bandwidth") + " than " +
-                       NumberText(bandwidth_hz) + " Hz");
+                   "no motion is left of it" +
+                       (gaps.count > 0 ? " between " + gaps.Text() +
+                                             ", where samples are missing"
+                                       : std::string()) +
+                       ", expected " + NumberText(std::ceil(10 * needed) / 10) +
+                       " s of it without gap or standstill, " + remedy);
 }
 
 }  // namespace armcal

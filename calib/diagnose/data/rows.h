@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "calib/diagnose/data/segment.h"
@@ -159,6 +160,21 @@ class GapRows {
   Eigen::VectorXd evidence_;           // n, N m or N; empty: none
   Eigen::MatrixXd evidence_weight_;    // like weight_
 };
+
+// Periods of the bandwidth of torques, above which a step between samples
+// splits a log: over a quarter of one a line is as good as what was lost.
+constexpr double kGapPeriods = .25;
+
+// The gaps of logs that split them at that bandwidth.
+struct SplittingGaps {
+  long count = 0;
+  double longest = 0;  // s
+
+  std::string Text() const;  // "its 27 gaps of up to 0.03 s"
+  // Hz, the highest whole one at which none of them does.
+  double BridgingBandwidth() const;
+};
+SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs);
 
 // Throws InputError where the logs have no rows: nothing to fit or to judge by.
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,

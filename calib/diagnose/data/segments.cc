@@ -154,7 +154,7 @@ std::vector<GapSegment> ReadSegments(double bandwidth_hz,
   CheckBandwidth(bandwidth_hz, logs);
   PreparationOptions prepared;
   prepared.bandwidth_hz = MotionBandwidth(bandwidth_hz);
-  prepared.longest_gap_s = .25 / bandwidth_hz;
+  prepared.longest_gap_s = kGapPeriods / bandwidth_hz;
   prepared.friction_motion = false;
   std::vector<GapSegment> segments;
   int log = -1, part = -1;

@@ -32,6 +32,23 @@ class LogReadingTest : public testing::Test {
   Log log_ = arm_.log;
 };
 
+// Drive counts, 400 of them an N m: no sign is told for the unit, and one that
+// is wrong is found beside it.
+TEST_F(LogReadingTest, AUnitOfTorquesIsNoSign) {
+  log_.tau *= 400;
+  for (const bool is_negated : {false, true}) {
+    if (is_negated) log_.tau.col(1) *= -1;
+    const ReadingFinding found = Read();
+    EXPECT_NEAR(std::log(400 * found.reading.torque_unit), 0, std::log(2.));
+    std::vector<ReadingChange> others = found.changes;
+    DropTorqueUnit(&others);
+    ASSERT_EQ(others.size(), is_negated ? 1u : 0u);
+    if (!is_negated) continue;
+    EXPECT_EQ(others[0].kind, Kind::kTorqueSign);
+    EXPECT_EQ(others[0].joint, 1);
+  }
+}
+
 TEST_F(LogReadingTest, AsItIs) {
   const ReadingFinding found = Read();
   EXPECT_TRUE(found.changes.empty());

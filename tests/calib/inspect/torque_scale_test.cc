@@ -27,7 +27,20 @@ TEST(TorqueScale, IsThatOfTheTorque) {
       EXPECT_LT(scales.Left(j, factor), .3);
     }
     EXPECT_GE(told, 4);
+    EXPECT_EQ(scales.AreOpposite(), factor < 0);
+    EXPECT_NEAR(scales.Size(), std::abs(factor), .1 * std::abs(factor));
   }
+}
+
+// One that is along with what the links need, and one that tells nothing.
+TEST(TorqueScale, AreNotOppositeWhereOneIsNot) {
+  TorqueScales scales;
+  scales.scale = scales.low = scales.high = Eigen::Vector3d(-1, -2, NAN);
+  EXPECT_TRUE(scales.AreOpposite());
+  scales.high[1] = .1;
+  EXPECT_FALSE(scales.AreOpposite());
+  scales.scale[1] = NAN;  // a load may be opposite to a single joint's links
+  EXPECT_FALSE(scales.AreOpposite());
 }
 
 // Torques that are another motion's tell nothing.

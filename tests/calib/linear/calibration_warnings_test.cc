@@ -92,6 +92,27 @@ TEST(HeldOut, IsNotOfTheSameRobot) {
   EXPECT_TRUE(CalibrationWarnings(arm.robot, arm.Validate(2)).empty());
 }
 
+// Friction that changes sign at once: no width that the log resolves.
+TEST(TransitionTable, AWidthThatNoSampleShowsIsBounded) {
+  Arm arm(1e-7);
+  const LinearCalibration result = arm.Calibrate();
+  const std::string text = EstimateText(arm.robot, result);
+  EXPECT_THAT(text, HasSubstr("less than ")) << text;
+  EXPECT_THAT(text, testing::Not(HasSubstr("e-07")));
+}
+
+// Torques that hold less of a joint's own acceleration than its link has: the
+// motion of the others tells the link's inertia by itself.
+TEST(NegativeEstimates, AnArmatureBelowZeroIsWarnedAbout) {
+  NoisyArm arm;
+  Log& log = arm.logs[0];
+  log.tau.col(1) -= .2 * log.qdd.col(1);
+  const auto warnings = CalibrationWarnings(arm.robot, arm.Calibrate());
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], HasSubstr("armature -0.198"));
+  EXPECT_THAT(warnings[0], HasSubstr("below zero"));
+}
+
 // A linear fit has no bounds.
 TEST(NegativeEstimates, OfTorquesThatAreNegatedAreWarnedAbout) {
   NoisyArm arm;

@@ -105,6 +105,24 @@ TEST_F(PositionJumpsTest, AWrongRowIsNoMissingTime) {
   }
 }
 
+// Zeros in all columns while a joint is about to pass zero: going there is a
+// jump and coming back is none, or the other way round. Its zero is not lost.
+TEST_F(PositionJumpsTest, ARowOfZerosNearZeroIsNoLostZero) {
+  int near_zero = 0;
+  for (int row = 300; row < 1700; row += 7) {
+    for (const double before : {.02, .03, .05, .08}) {
+      Log log = arm_.log;
+      log.q.col(0).array() += 1 - log.q(row, 0);  // far from zero
+      log.q.col(1).array() += before - log.q(row - 1, 1);
+      log.q.row(row).setZero();
+      const LogJumps jumps = Jumps(log);
+      EXPECT_TRUE(jumps.joints[1].steps.empty()) << row << " " << before;
+      near_zero += static_cast<int>(jumps.joints[1].spikes.size());
+    }
+  }
+  EXPECT_GT(near_zero, 0);
+}
+
 TEST_F(PositionJumpsTest, AnEncoderThatWrapsIsUnwrapped) {
   Log wraps = arm_.log;
   for (double& q : wraps.q.col(0)) q = q > .1 ? q - 2 * M_PI : q;
