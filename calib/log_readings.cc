@@ -10,7 +10,6 @@
 
 #include "calib/inspect/inspection.h"
 #include "calib/inspect/torque_scale.h"
-#include "model/text/enumeration.h"
 #include "model/text/format.h"
 #include "model/text/input_error.h"
 
@@ -103,54 +102,6 @@ std::vector<DataFinding> OtherUnits(const LogSource& log,
            true}};
 }
 
-// A joint's torque is opposite to what the file's links need in one log and
-// along with it in the other, each beyond its 95 % interval. Whatever is wrong
-// with the file is so in both. Where the log is read with other signs or
-// columns than it has, that is told by itself.
-std::vector<int> OppositeTorques(const LogInspection& log,
-                                 const LogInspection& other) {
-  const auto is_as_logged = [](const LogInspection& one, int j) {
-    const Wiring& wiring = one.reading.wiring;
-    return wiring.torque_column[j] == j && wiring.position_column[j] == j &&
-           wiring.torque_sign[j] > 0 && wiring.position_sign[j] > 0;
-  };
-  const TorqueScales& own = log.torque_scales;
-  const TorqueScales& its = other.torque_scales;
-  std::vector<int> joints;
-  for (int j = 0; j < std::min(own.scale.size(), its.scale.size()); ++j) {
-    if (!own.told(j) || !its.told(j)) continue;
-    if (!is_as_logged(log, j) || !is_as_logged(other, j)) continue;
-    const bool falls = own.high[j] < 0 && its.low[j] > 0;
-    const bool rises = own.low[j] > 0 && its.high[j] < 0;
-    if (falls || rises) joints.push_back(j);
-  }
-  return joints;
-}
-
-std::vector<DataFinding> OtherSigns(const Robot& robot, const LogSource& log,
-                                    const LogInspection& inspected,
-                                    const LogSource& other,
-                                    const LogInspection& others) {
-  const std::vector<int> joints = OppositeTorques(inspected, others);
-  if (joints.empty()) return {};
-  std::vector<std::string> names;
-  std::string evidence;
-  for (const int j : joints) {
-    names.push_back(robot.links[j].joint.name);
-    evidence += Format(
-        "%s%s: %.3g to %.3g times what the robot's links need, "
-        "and %.3g to %.3g times (95 %%)",
-        evidence.empty() ? "" : "; ", names.back().c_str(),
-        inspected.torque_scales.low[j], inspected.torque_scales.high[j],
-        others.torque_scales.low[j], others.torque_scales.high[j]);
-  }
-  const bool one = names.size() == 1;
-  return {{std::string(one ? "the torque of " : "the torques of ") +
-               Enumeration(names) + (one ? " has" : " have") + " one sign in " +
-               log.name + " and the other in " + other.name,
-           evidence, "negate the column in one of them", true}};
-}
-
 bool Counts(const std::string& finding, const ReadingQuestions& questions) {
   return finding == "time_unit" ||
          (questions.arm && OfAnotherArm().count(finding) > 0) ||
@@ -179,10 +130,6 @@ std::vector<DataFinding> WrongReadings(const Robot& robot,
   for (size_t k = 0; k < logs.size(); ++k) {
     if (!inspected[k]) continue;
     if (!questions.scales && inspected[0]) {
-      for (DataFinding& found :
-           OtherSigns(robot, logs[k], *inspected[k], logs[0], *inspected[0])) {
-        wrong.push_back(std::move(found));
-      }
       for (DataFinding& found :
            OtherUnits(logs[k], inspected[k]->torque_scales, logs[0],
                       inspected[0]->torque_scales)) {

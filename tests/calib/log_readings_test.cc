@@ -99,20 +99,6 @@ TEST_F(LogReadingsTest, AReferenceInAnotherUnitIsTold) {
   EXPECT_THAT(Diagnosis(loaded, &arm_.log).brief, Not(HasSubstr("unit")));
 }
 
-// Of a torque with few values no sign is asked by itself; a reference that has
-// the other one tells it.
-TEST_F(LogReadingsTest, AReferenceWithTheOtherSignIsTold) {
-  const Log reference = arm_.log;
-  const double quantum = .3 * ColumnRms(arm_.log.tau)[1];
-  arm_.log.tau.col(1) =
-      -(arm_.log.tau.col(1).array() / quantum).round() * quantum;
-  const DiagnoseSummary summary = Diagnosis(arm_.log, &reference);
-  EXPECT_EQ(summary.verdict, "not_testable");
-  EXPECT_THAT(summary.brief,
-              HasSubstr("the torque of joint2 has one sign in reference.csv "
-                        "and the other in log.csv"));
-}
-
 // What a log and its reference differ in is the time, not a flag.
 TEST_F(LogReadingsTest, TimeInAnotherUnitThanTheReferencesIsRefused) {
   Log slow = arm_.log;
