@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "calib/diagnose/candidates/effect_odds.h"
+#include "calib/diagnose/contacts/contacts.h"
 #include "calib/diagnose/judge/evidence.h"
 #include "calib/diagnose/judge/joint_agreement.h"
 #include "calib/diagnose/judge/probability.h"
-#include "calib/diagnose/contacts/contacts.h"
 #include "calib/diagnose/select/reference_scatter.h"
 
 namespace armcal {

@@ -4,8 +4,8 @@
 
 #include "calib/diagnose/candidates/candidates.h"
 #include "calib/diagnose/contacts/contacts.h"
-#include "calib/diagnose/select/events.h"
 #include "calib/diagnose/contacts/excess.h"
+#include "calib/diagnose/select/events.h"
 #include "calib/diagnose/select/regression.h"
 
 namespace armcal {

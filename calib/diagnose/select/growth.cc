@@ -240,19 +240,19 @@ bool IsOfEachJoint(const GapRegression& regression,
 
 // The next effect of a set, and its odds less its penalty; -1: none is above
 // the threshold.
-struct Step {
+struct NextEffect {
   int candidate = -1;
   double odds = -std::numeric_limits<double>::infinity();
   double best_odds = -std::numeric_limits<double>::infinity();  // of all
 };
 
-Step NextOf(const GapRegression& regression,
-            const std::vector<GapCandidate>& candidates,
-            const SelectionOptions& options, const std::vector<int>& set,
-            const GapScreen& smaller) {
+NextEffect NextOf(const GapRegression& regression,
+                  const std::vector<GapCandidate>& candidates,
+                  const SelectionOptions& options, const std::vector<int>& set,
+                  const GapScreen& smaller) {
   const GapScreen& screen = regression.screen();
   const std::vector<int> list = Shortlist(regression, candidates, options, set);
-  Step step;
+  NextEffect step;
   if (list.empty()) return step;
   VectorXd scores(list.size()), explained(list.size());
   tbb::parallel_for(size_t{0}, list.size(), [&](size_t i) {
@@ -281,7 +281,7 @@ double OddsOfTheRest(const std::vector<GapCandidate>& candidates,
   double odds = 0;
   while (set.size() < most) {
     regression->SettleEvidence(ColumnsOf(candidates, set));
-    const Step step =
+    const NextEffect step =
         NextOf(*regression, candidates, options, set,
                regression->screen().Only(ColumnsOf(candidates, set)));
     if (step.candidate < 0) break;
@@ -298,7 +298,7 @@ double OddsOfTheRest(const std::vector<GapCandidate>& candidates,
 bool HaveZerosMoved(const std::vector<GapCandidate>& candidates,
                     const SelectionOptions& options,
                     const std::vector<int>& set, const GapScreen& smaller,
-                    const Step& next, GapRegression* regression) {
+                    const NextEffect& next, GapRegression* regression) {
   if (!MayZerosHaveMoved(*regression, candidates, options, set, smaller,
                          next.best_odds)) {
     return false;
@@ -334,7 +334,8 @@ Growth GrowEffects(const std::vector<GapCandidate>& candidates,
   while (static_cast<int>(set.size()) < options.most_effects) {
     const GapScreen smaller =
         regression->screen().Only(ColumnsOf(candidates, set));
-    const Step next = NextOf(*regression, candidates, options, set, smaller);
+    const NextEffect next =
+        NextOf(*regression, candidates, options, set, smaller);
     if (regression->HoldsZeros() &&
         HaveZerosMoved(candidates, options, set, smaller, next, regression)) {
       return {set, true, -1};

@@ -386,9 +386,9 @@ bool GapRegression::CouldHaveLost(const GapCandidate& effect,
                                   const JointRows& all) const {
   if (!reference_ || !effect.is_change) return true;
   if (effect.effect->nature != Effect::Nature::kLaw) return true;
-  const bool is_backwards = effect.effect->parameters[0].sign ==
-                                EffectParameter::Sign::kPositive &&
-                            effect.p[0] < 0;
+  const bool is_backwards =
+      effect.effect->parameters[0].sign == EffectParameter::Sign::kPositive &&
+      effect.p[0] < 0;
   return !is_backwards || ShareInReference(effect, all).CouldBeLost();
 }
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "calib/diagnose/candidates/refinement.h"
+#include "calib/diagnose/contacts/pulses.h"
 #include "calib/diagnose/data/segment.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/contacts/pulses.h"
 #include "calib/diagnose/select/returning_events.h"
 
 namespace armcal {
