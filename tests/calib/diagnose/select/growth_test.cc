@@ -182,6 +182,40 @@ TEST_F(ZerosOfAnotherDayTest, OneThatIsFarBeyondTheOthersIs) {
   EXPECT_FALSE(fit.regression().HoldsZeros());
 }
 
+// In a motion this small a load is a torque on each joint that hardly changes:
+// with an offset on the first joint all of it looks like zeros that moved, and
+// by more than the load explains alone. Both together are simpler.
+TEST_F(ZerosOfAnotherDayTest, AreNoLoadAndAnotherEffect) {
+  constexpr double kScale = .02;
+  Motion& motion = arm_.motion;
+  const Eigen::RowVectorXd about = motion.q.row(0);
+  motion.q = kScale * (motion.q.rowwise() - about);
+  motion.q.rowwise() += about;
+  motion.qd *= kScale;
+  motion.qdd *= kScale;
+  SimulatedRobot loaded;
+  loaded.robot = arm_.robot;
+  const Effect& payload = *FindEffect("payload");
+  VectorXd p =
+      VectorXd::Zero(static_cast<Eigen::Index>(payload.parameters.size()));
+  p[0] = .3;
+  payload.apply({&arm_.robot, -1, &arm_.scale}, p, &loaded);
+  VectorXd zeros = VectorXd::Zero(6);
+  zeros[0] = .5;
+  GapSegment log = Recorded(0, zeros);
+  log.tau += RecordedTorque(arm_.robot, baseline_->transitions(), motion)
+                 .Change(loaded);
+  GapFitOptions options;
+  options.bandwidth_hz = kBandwidth;
+  GapFit fit(*baseline_, options, {log}, {Recorded(1, VectorXd::Zero(6))});
+  fit.Choose();
+  // It weighs on the wrist as a mass on the link before would.
+  EXPECT_THAT(PlacesOf(fit), testing::UnorderedElementsAre(
+                                 testing::AnyOf("payload", "added_mass@5"),
+                                 "torque_offset@1"));
+  EXPECT_TRUE(fit.regression().HoldsZeros());
+}
+
 TEST_F(ZerosOfAnotherDayTest, TwoOffsetsAreTwoEffects) {
   VectorXd zeros = VectorXd::Zero(6);
   zeros[1] = .8;
