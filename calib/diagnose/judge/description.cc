@@ -27,8 +27,7 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   found->stddev.insert(found->stddev.end(), stddev.begin(), stddev.end());
   const GapRegression& regression = fit.regression();
   found->is_possible = IsPossible(effect, *site.robot, *site.scale) &&
-                       regression.CouldHaveLost(
-                           effect, regression.TorqueOf(fit.refined().effects));
+                       regression.CouldHaveLost(effect, fit.refined().effects);
 }
 
 // A missing term's values are those of the model with the effects, told for the

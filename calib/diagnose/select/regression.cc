@@ -383,13 +383,13 @@ ShareOfEffect GapRegression::ShareInReference(const GapCandidate& effect,
 }
 
 bool GapRegression::CouldHaveLost(const GapCandidate& effect,
-                                  const JointRows& all) const {
+                                  const std::vector<GapCandidate>& all) const {
   if (!reference_ || !effect.is_change) return true;
   if (effect.effect->nature != Effect::Nature::kLaw) return true;
   const bool is_backwards =
       effect.effect->parameters[0].sign == EffectParameter::Sign::kPositive &&
       effect.p[0] < 0;
-  return !is_backwards || ShareInReference(effect, all).CouldBeLost();
+  return !is_backwards || ShareInReference(effect, TorqueOf(all)).CouldBeLost();
 }
 
 JointRows GapRegression::TorqueOf(

@@ -83,7 +83,8 @@ class GapRegression {
   // Whether a law that acts backwards, as less of it than the reference had
   // does, can be that: one that cannot act backwards by itself (a spring) has
   // to be there before it is lost. True for all others.
-  bool CouldHaveLost(const GapCandidate& effect, const JointRows& all) const;
+  bool CouldHaveLost(const GapCandidate& effect,
+                     const std::vector<GapCandidate>& all) const;
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }

@@ -145,8 +145,7 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
     const double score = fitted[r].delta_chi2 - fitted[r].penalty;
     const bool is_possible =
         IsPossible(refined[r].effects[k], baseline.robot(), scale) &&
-        regression.CouldHaveLost(refined[r].effects[k],
-                                 regression.TorqueOf(refined[r].effects));
+        regression.CouldHaveLost(refined[r].effects[k], refined[r].effects);
     rivals.scores.push_back({rival.effect, rival.joint, score, is_possible});
     if (is_possible < best_is_possible) continue;
     if (is_possible == best_is_possible && !(score > best_score)) continue;
