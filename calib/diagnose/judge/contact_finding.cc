@@ -7,33 +7,11 @@
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/judge/description.h"
 #include "calib/diagnose/judge/probability.h"
+#include "calib/diagnose/select/contact_events.h"
 #include "calib/diagnose/select/pulse_events.h"
-#include "calib/numerics/maxima.h"
 
 namespace armcal {
 namespace {
-
-// How probable it is that what the model lacks as a rule is as large on some
-// joint in some stretch of the log, as long as this one, as what was felt, each
-// joint's torque known as well as the log's other pulses say, if it was felt as
-// one. A chi squared of many samples does not ask this: what lasts through a
-// stretch is not averaged there.
-double ChanceByDiscrepancy(const GapFit& fit, const GapEvent& event,
-                           const Eigen::VectorXd& scale) {
-  const Contact& contact = ToldContact(event);
-  Eigen::VectorXd stddev = contact.stddev;
-  if (event.pulse || event.as_pulse) stddev.array() *= scale.array();
-  for (int j = 0; j < stddev.size(); ++j) {
-    stddev[j] = std::hypot(stddev[j], fit.regression().DiscrepancyOn(j));
-  }
-  double duration = 0;
-  for (const GapSegment& segment : fit.rows().segments()) {
-    duration += segment.motion.dt * static_cast<double>(segment.motion.size());
-  }
-  const double length = contact.window.end - contact.window.begin;
-  const double stretches = std::max(1., duration / std::max(1e-9, length));
-  return ChanceOfLargest(contact.torque, stddev, stretches);
-}
 
 // That an event is a contact, `evidence` being that of all events: of what is
 // beyond friction by the chance that a log without a contact gets as far
@@ -44,13 +22,18 @@ double ChanceByDiscrepancy(const GapFit& fit, const GapEvent& event,
 double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
                           const EffectEvidence& evidence, double chance_in_log,
                           const Eigen::VectorXd& scale) {
+  const Eigen::VectorXd by_pulses = event.pulse || event.as_pulse
+                                        ? scale
+                                        : Eigen::VectorXd::Ones(scale.size());
   if (!event.beyond_friction) return ProbabilityOf(evidence);
   const double odds = Limits().odds_of_no_contact;
   if (event.chance_of_logs) return ProbabilityBeyondChance(event.chance, odds);
   return std::min(
       std::max(ProbabilityBeyondOneReference(evidence),
                ProbabilityBeyondChance(chance_in_log, odds)),
-      ProbabilityBeyondChance(ChanceByDiscrepancy(fit, event, scale), odds));
+      ProbabilityBeyondChance(
+          ChanceByDiscrepancy(fit.regression(), ToldContact(event), by_pulses),
+          odds));
 }
 
 bool AreOne(const Contact& a, const Contact& b) {

@@ -1,6 +1,7 @@
 #include "calib/diagnose/select/contact_events.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
@@ -45,6 +46,21 @@ FrictionExcess ExcessGiven(const GapRegression& regression,
 bool LastsTooLong(double seconds, const Contact& contact) {
   return contact.window.end - contact.window.begin >
          Limits().most_of_time * seconds;
+}
+
+double ChanceByDiscrepancy(const GapRegression& regression,
+                           const Contact& contact, const VectorXd& scale) {
+  VectorXd stddev = contact.stddev.cwiseProduct(scale);
+  for (int j = 0; j < stddev.size(); ++j) {
+    stddev[j] = std::hypot(stddev[j], regression.DiscrepancyOn(j));
+  }
+  double duration = 0;
+  for (const GapSegment& segment : regression.rows().segments()) {
+    duration += segment.motion.dt * static_cast<double>(segment.motion.size());
+  }
+  const double length = contact.window.end - contact.window.begin;
+  const double stretches = std::max(1., duration / std::max(1e-9, length));
+  return ChanceOfLargest(contact.torque, stddev, stretches);
 }
 
 // The threshold is the excess that a log without a contact passes with the

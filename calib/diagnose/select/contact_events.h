@@ -19,6 +19,15 @@ FrictionExcess ExcessGiven(const GapRegression& regression,
 // cause, whose law is not fitted yet.
 bool LastsTooLong(double seconds, const Contact& contact);
 
+// How probable it is that what the model lacks as a rule is as large on some
+// joint, in some stretch of the log as long as the contact, as what was felt:
+// normal, of the discrepancy's standard deviation and `scale` (n) times that
+// of each joint's torque. A chi squared of many samples does not ask this: what
+// lasts through a stretch is not averaged there.
+double ChanceByDiscrepancy(const GapRegression& regression,
+                           const Contact& contact,
+                           const Eigen::VectorXd& scale);
+
 // Contacts given effects, in windows in which nothing is known yet. They
 // stand out from all that friction does when nothing touches the arm, which
 // only a reference tells. What one joint alone feels in motion may be its own:

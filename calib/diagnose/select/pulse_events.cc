@@ -1,10 +1,12 @@
 #include "calib/diagnose/select/pulse_events.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/contact_events.h"
 #include "calib/diagnose/select/pulse_search.h"
 
 namespace armcal {
@@ -81,6 +83,21 @@ bool TakeMostOfTheTime(const GapRows& rows,
   return TimeOfPulses(events, -1) > Limits().most_of_time * rows.time();
 }
 
+// Whether a pulse is improbable without a contact. A single reference does not
+// tell how logs differ: there the pulse has to speak for a contact as well
+// where the model lacks what models lack as a rule. A chance p bounds the odds
+// for a contact by 1 / (-e p ln p), so that one of 1 / e and more says nothing
+// (ProbabilityBeyondChance). Where the pulses of reference and log are far
+// smaller than their standard deviations say, one that is not is improbable
+// among them, and may yet be no more than any model lacks.
+bool StandsOut(const GapRegression& regression, const GapEvent& pulse) {
+  if (!(pulse.chance < Limits().false_contacts)) return false;
+  if (regression.has_several_references()) return true;
+  const Eigen::VectorXd scale =
+      Eigen::VectorXd::Ones(pulse.contact.stddev.size());
+  return ChanceByDiscrepancy(regression, pulse.contact, scale) < 1 / M_E;
+}
+
 }  // namespace
 
 // Those of the first bank, less what they spoil, and then each longer one that
@@ -110,13 +127,17 @@ void DropSpoilt(const GapRows& rows, std::vector<GapEvent>* events) {
 std::vector<GapEvent> FindPulses(const GapRegression& regression,
                                  const std::vector<GapCandidate>& effects) {
   if (!regression.reference()) return {};
-  const GapRows& rows = regression.rows();
   std::vector<GapEvent> events =
       PulseSearch(regression, effects, *regression.data()).Find();
+  DropSpoilt(regression.rows(), &events);
+  events.erase(std::remove_if(events.begin(), events.end(),
+                              [&](const GapEvent& event) {
+                                return !StandsOut(regression, event);
+                              }),
+               events.end());
   for (GapEvent& event : events) {
     event.chance_of_logs = regression.has_several_references();
   }
-  DropSpoilt(rows, &events);
   return events;
 }
 
@@ -131,9 +152,7 @@ std::vector<GapEvent> WithoutExplainedPulses(
   kept.clear();
   const std::vector<GapEvent> pulses = search.LargestIn(events);
   for (size_t k = 0; k < events.size(); ++k) {
-    if (events[k].pulse && !(pulses[k].chance < Limits().false_contacts)) {
-      continue;
-    }
+    if (events[k].pulse && !StandsOut(regression, pulses[k])) continue;
     kept.push_back(events[k]);
   }
   return kept;
@@ -153,7 +172,7 @@ void ConfirmTouches(const GapRegression& regression,
     GapEvent& event = (*events)[k];
     if (event.beyond_friction) continue;
     const GapEvent& pulse = pulses[k];
-    if (!(pulse.chance < Limits().false_contacts)) continue;
+    if (!StandsOut(regression, pulse)) continue;
     event.beyond_friction = true;
     event.chance = pulse.chance;
     event.as_pulse = pulse.contact;
