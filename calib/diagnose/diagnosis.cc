@@ -75,7 +75,6 @@ class Diagnoser {
                           const std::vector<GapSegment>& before);
   GapFigures FiguresOf(const HeldOut::Residuals& residuals) const;
   bool ClaimNoMore(GapFindings* findings);
-  JointGap JointFigures(int joint) const;
   void Draw();
   void Simulate(const LogSet& held_out, bool split);
   void Judge();
@@ -215,13 +214,15 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   HeldOut::Residuals residuals = held_out_->AllResiduals();
   result_.torque = FiguresOf(residuals);
   for (int j = 0; j < robot_.num_joints(); ++j) {
-    result_.joints.push_back(JointFigures(j));
+    result_.joints.push_back(JointGapOf(robot_, *fit_, result_.torque, j));
   }
+  SetBeyondReference(*fit_, &result_.joints);
   result_.unexplained = SumUnexplained(*fit_, result_.joints);
   GapFindings findings = ListFindings(
       robot_, *fit_, *held_out_, result_.torque,
       result_.has_reference ? std::vector<MissingTerm>() : missing.terms);
   if (ClaimNoMore(&findings)) residuals = held_out_->AllResiduals();
+  SetRms(held_out_->RmsOf(residuals), &result_.joints);
   result_.effects = findings.effects;
   result_.unnamed = findings.unnamed;
   result_.candidates = findings.candidates;
@@ -288,34 +289,7 @@ bool Diagnoser::ClaimNoMore(GapFindings* findings) {
            GiveUpWorst(result_.torque, result_.has_reference, findings) ||
            GiveUpWhatDoesNotHelp(result_.torque, findings));
   LowerWhatDoesNotHelp(result_.torque, &findings->effects);
-  if (!is_another) return false;
-  if (result_.torque.joints.rows() > 0) {
-    for (int j = 0; j < robot_.num_joints(); ++j) {
-      result_.joints[j].after_rms =
-          fit_->noise().joints[j].stddev() * result_.torque.joints(j, 2);
-    }
-  }
-  return true;
-}
-
-JointGap Diagnoser::JointFigures(int j) const {
-  const Joint& joint = robot_.links[j].joint;
-  const double sigma = fit_->noise().joints[j].stddev();
-  JointGap gap;
-  gap.name = joint.name;
-  gap.unit = EffortUnit(joint.type);
-  gap.floor_rms = sigma;
-  gap.torque_rms = fit_->scale().torque[j];
-  if (result_.torque.joints.rows() > j) {
-    gap.nominal_rms = sigma * result_.torque.joints(j, 0);
-    gap.refit_rms = sigma * result_.torque.joints(j, 1);
-    gap.after_rms = sigma * result_.torque.joints(j, 2);
-  }
-  gap.organised = OrganisedBy(JointCourseOf(*fit_, j));
-  gap.unexplained = UnexplainedOf(
-      {Excess(*fit_, j, true), fit_->rows().num_rows(j), result_.floor,
-       !gap.organised.by.empty(), gap.after_rms / sigma});
-  return gap;
+  return is_another;
 }
 
 void Diagnoser::Draw() {

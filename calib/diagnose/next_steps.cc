@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/diagnose/names.h"
+#include "model/text/format.h"
 #include "model/text/option_name.h"
 
 namespace armcal {
@@ -105,6 +106,22 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
   return steps;
 }
 
+// A reference that moves as this log does, where one that does not leaves three
+// quarters of the noise's variance, or more, to what is not known of such
+// motion. Empty where it leaves less.
+std::string ReferenceOfThisMotion(const GapDiagnosis& diagnosis) {
+  const auto worst =
+      std::max_element(diagnosis.joints.begin(), diagnosis.joints.end(),
+                       [](const JointGap& a, const JointGap& b) {
+                         return a.beyond_reference < b.beyond_reference;
+                       });
+  if (worst == diagnosis.joints.end() || worst->beyond_reference < 2) return "";
+  return Format(
+      "a reference that moves as fast as this log: beyond the speeds that the "
+      "reference has, what its model leaves of %s may be %.2g times as large",
+      worst->name.c_str(), worst->beyond_reference);
+}
+
 // Whether it is of the robot and not of a log or a moment.
 bool IsOfTheRobot(const FoundEffect& found) {
   using Nature = Effect::Nature;
@@ -136,6 +153,8 @@ std::vector<std::string> NextSteps(const GapDiagnosis& diagnosis) {
   if (nothing_seen && !diagnosis.untestable.empty()) {
     steps.push_back("what this motion cannot show, another may: armcal excite");
   }
+  const std::string reference = ReferenceOfThisMotion(diagnosis);
+  if (!reference.empty()) steps.push_back(reference);
   if (std::any_of(diagnosis.effects.begin(), diagnosis.effects.end(),
                   IsOfTheRobot)) {
     steps.push_back("for a simulator: " + OptionName("export") + " and " +

@@ -180,6 +180,16 @@ void GapData::MaskIn(int segment, const TimeRange& window,
 
 void GapData::Unmask() { extra_stddev_ = signals_->usual_extra_stddev; }
 
+std::vector<bool> GapData::Masked() const {
+  const Eigen::ArrayXd least =
+      kNothing * residual().colwise().norm().transpose().array();
+  std::vector<bool> masked(rows_->num_thin(), false);
+  for (int k = 0; k < rows_->num_thin() && least.sum() > 0; ++k) {
+    masked[k] = (extra_stddev_.row(k).transpose().array() >= least).all();
+  }
+  return masked;
+}
+
 std::vector<BaselineColumns> GapData::WhitenedColumns() const {
   std::vector<BaselineColumns> white;
   for (int j = 0; j < rows_->num_joints(); ++j) {

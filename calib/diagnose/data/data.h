@@ -65,6 +65,8 @@ class GapData {
   void Mask(int log, const TimeRange& window);
   // All is believed again.
   void Unmask();
+  // Of each thinned sample, whether nothing is believed of it.
+  std::vector<bool> Masked() const;
   // Whitened, per joint.
   std::vector<BaselineColumns> WhitenedColumns() const;
   std::vector<Eigen::VectorXd> WhitenedResidual() const;

@@ -50,7 +50,7 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
                                          double least) {
   const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd left =
-      deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
+      deviations.unaryExpr([=](double x) { return std::isnan(x) ? 0 : x; });
   std::optional<LogWindow> strongest;
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), begin = rows.thin_begin(s);
@@ -71,6 +71,13 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
 }
 
 }  // namespace
+
+MatrixXd Bounded(const MatrixXd& residual) {
+  const double most = 1e9;
+  return residual.unaryExpr([most](double x) {
+    return std::isfinite(x) ? std::clamp(x, -most, most) : most;
+  });
+}
 
 HeldOut::HeldOut(const GapFit& fit, std::uint64_t seed)
     : fit_(fit),
@@ -138,8 +145,8 @@ void HeldOut::MaskEvents() {
 
 MatrixXd HeldOut::ResidualOf(const std::vector<GapCandidate>& effects,
                              const VectorXd& baseline, GapData* data) const {
-  return data->ResidualWith(
-      baseline, EffectTorque(fit_.baseline(), fit_.scale(), effects, data));
+  return Bounded(data->ResidualWith(
+      baseline, EffectTorque(fit_.baseline(), fit_.scale(), effects, data)));
 }
 
 MatrixXd HeldOut::Residual(const Part& part,
@@ -261,6 +268,25 @@ HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
   return {Deviations(residuals.nominal).cwiseAbs2(),
           Deviations(residuals.refit).cwiseAbs2(),
           Deviations(residuals.after).cwiseAbs2()};
+}
+
+MatrixXd HeldOut::RmsOf(const Residuals& residuals) const {
+  MatrixXd rms(residuals.refit.cols(), 4);
+  const std::vector<bool> masked = rows_->Masked();
+  for (int j = 0; j < rms.rows(); ++j) {
+    Eigen::RowVector4d squares = Eigen::RowVector4d::Zero();
+    int count = 0;
+    for (const int k : rows().SampleOfRow(j)) {
+      if (masked[k]) continue;
+      ++count;
+      squares += Eigen::RowVector4d(std::pow(residuals.nominal(k, j), 2),
+                                    std::pow(residuals.refit(k, j), 2),
+                                    std::pow(residuals.after(k, j), 2),
+                                    rows().variance(j, k));
+    }
+    rms.row(j) = (squares / count).cwiseSqrt();
+  }
+  return rms;
 }
 
 JointRows HeldOut::Whitened(const Part& part, const MatrixXd& residual) {

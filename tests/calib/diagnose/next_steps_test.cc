@@ -128,6 +128,18 @@ TEST(NextSteps, NoSimulatorForRecordingsAndTouches) {
   EXPECT_THAT(NextSteps(diagnosis), IsEmpty());
 }
 
+TEST(NextSteps, AReferenceOfThisMotionWhereItKnewOneThatIsSlower) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.joints[0].beyond_reference = 1.9;
+  EXPECT_THAT(NextSteps(diagnosis), ElementsAre(kExport));
+  diagnosis.joints[1].beyond_reference = 9;
+  EXPECT_THAT(NextSteps(diagnosis),
+              ElementsAre(testing::AllOf(HasSubstr("as fast as this log"),
+                                         HasSubstr(diagnosis.joints[1].name +
+                                                   " may be 9 times as large")),
+                          kExport));
+}
+
 TEST(NextSteps, WhereNothingIsNamed) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects.clear();

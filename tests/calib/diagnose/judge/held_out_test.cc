@@ -122,4 +122,35 @@ TEST_F(HeldOutTest, AFoldChoosesWhatCanBe) {
   EXPECT_GT(gain.ci95[0], 0);
 }
 
+// The reference was a third as fast, so that what its model leaves may be nine
+// times as large in this motion. What is left is told as it is, and so is what
+// it may be, over the time in which nothing is masked.
+TEST_F(HeldOutTest, TorquesAreToldAsTheyAre) {
+  Motion slow = arm_.motion;
+  slow.dt *= 3;
+  slow.qd /= 3;
+  slow.qdd /= 9;
+  const GapFit fit = Fit(
+      {}, {MakeSegment(slow,
+                       RecordedTorque(arm_.robot, baseline_.transitions(), slow)
+                           .nominal())});
+  const HeldOut held_out(fit);
+  const HeldOut::Residuals left = held_out.AllResiduals();
+  const MatrixXd rms = held_out.RmsOf(left);
+  for (int j = 0; j < 2; ++j) {
+    const VectorXd refit = left.refit.col(j);
+    EXPECT_NEAR(rms(j, 1), std::sqrt(refit.squaredNorm() / refit.size()),
+                .1 * rms(j, 1));
+    EXPECT_GT(rms(j, 3), 3 * fit.noise().joints[j].stddev());
+  }
+}
+
+TEST(Bounded, WhatRunsAwayIsNotMissing) {
+  const MatrixXd left =
+      Bounded((MatrixXd(1, 3) << .5, INFINITY, -NAN).finished());
+  EXPECT_EQ(left(0, 0), .5);
+  EXPECT_EQ(left(0, 1), 1e9);
+  EXPECT_EQ(left(0, 2), 1e9);
+}
+
 }  // namespace armcal::held_out_test
