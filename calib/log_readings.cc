@@ -80,18 +80,19 @@ ScaleRange RangeOf(const TorqueScales& scales) {
   return range;
 }
 
-// All joints of one log have to be beyond all of the other's. Two joints at
-// least, since a load may be several times a single joint's link.
+// All joints of one log have to be beyond all of the other's. Where they are
+// one joint in both, a load may be several times its link, and no hundred
+// times: an arm carries what it weighs at most.
 std::vector<DataFinding> OtherUnits(const LogSource& log,
                                     const TorqueScales& scales,
                                     const LogSource& other,
                                     const TorqueScales& others) {
+  constexpr double kNoLoad = 100;
   const ScaleRange own = RangeOf(scales), its = RangeOf(others);
-  const bool is_other =
-      own.low > kNotInertia * its.high || own.high < its.low / kNotInertia;
-  const bool is_told =
-      own.joints > 0 && its.joints > 0 && std::max(own.joints, its.joints) > 1;
-  if (!is_told || !is_other) return {};
+  if (own.joints == 0 || its.joints == 0) return {};
+  const double factor =
+      std::max(own.joints, its.joints) > 1 ? kNotInertia : kNoLoad;
+  if (own.low <= factor * its.high && own.high >= its.low / factor) return {};
   return {{"the torques of " + log.name + " and of " + other.name +
                " are not in one unit",
            Format("%.3g to %.3g times what the robot's links need, and %.3g to "

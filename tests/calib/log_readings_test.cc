@@ -85,6 +85,24 @@ TEST_F(LogReadingsTest, AZeroOfTheFileIsDoubted) {
   EXPECT_NE(summary.verdict, "not_testable");
 }
 
+// Of one joint, of which a load may be several times what its link weighs.
+TEST(LogReadings, ASingleJointsTorquesInAnotherUnitAreNoLoad) {
+  const InspectedArm arm("2R planar (vertical plane)", 20, 1);
+  LogReaderOptions options;
+  options.joint_names = arm.robot.JointNames();
+  const auto wrong = [&](double factor) {
+    Log other = arm.log;
+    other.tau *= factor;
+    return WrongReadings(
+        arm.robot, {LogSource("log.csv", other), LogSource("ref.csv", arm.log)},
+        options, false);
+  };
+  EXPECT_TRUE(wrong(20).empty());
+  const std::vector<DataFinding> milli = wrong(1000);
+  ASSERT_EQ(milli.size(), 1u);
+  EXPECT_THAT(milli[0].finding, HasSubstr("are not in one unit"));
+}
+
 // Which of the two it is, none tells.
 TEST_F(LogReadingsTest, AReferenceInAnotherUnitIsTold) {
   for (const bool is_reference : {false, true}) {
