@@ -34,14 +34,15 @@ struct FrozenChannel {
 // variance v, and the torque itself V. The fit's torque at the run's motion
 // minus the recorded one is N(0, v) if the record is right (v with the fit's
 // own variance there), and N(0, V + v) if it has nothing to do with the arm.
-// The second has to be e^15 times likelier, of as many samples as are
-// independent (IndependentSamples). Of zeros those samples count in which the
-// joint gains speed: where it loses some, a brake may do that whose drive is
-// off. A torque at an end of its range may be cut off there, unless less is
-// needed. A joint that rests needs what its links weigh there, an offset, and
-// friction of either direction up to twice the sliding one; or it is held by a
-// brake, and its torque is constant. That its position is wrong, the other
-// joints' torques tell, too.
+// The second has to be 100 R times likelier, R being the runs that are asked in
+// the log, of as many samples as are independent (IndependentSamples): of a
+// hundred right logs one may have a false claim. Of zeros those samples count
+// in which the joint gains speed: where it loses some, a brake may do that
+// whose drive is off. A torque at an end of its range may be cut off there,
+// unless less is needed. A joint that rests needs what its links weigh there,
+// an offset, and friction of either direction up to twice the sliding one; or
+// it is held by a brake, and its torque is constant. That its position is
+// wrong, the other joints' torques tell, too.
 std::vector<FrozenChannel> FindFrozenChannels(const Robot& robot,
                                               const Log& log,
                                               const UniformSeries& series);
