@@ -191,9 +191,13 @@ class Reader {
            num_moving_ >= std::min(2, state_.robot.num_joints());
   }
 
-  // What the joints agree on, else what is best for all of them together.
+  // What the joints agree on. One clock stamps all torques, while what a model
+  // lacks looks late in one joint and early in another: where they do not
+  // agree, a shift that fits all of them together is no delay. One joint alone
+  // has none to agree with.
   Candidate BestDelay() {
     Candidate best{state_.best, {Kind::kDelay}};
+    const std::vector<bool> asked = Asked();
     const TorqueDelay found = FindTorqueDelay(
         state_.FitOf(state_.best),
         [&](double delay) {
@@ -201,12 +205,13 @@ class Reader {
           at.delay = delay;
           return state_.SamplesOf(at).tau;
         },
-        Asked());
-    state_.joints_agree = found.IsBeyond(kLeastDelay);
-    const double delay = state_.joints_agree ? found.mean : found.best;
-    if (state_.joints_agree ||
-        (found.inside && std::abs(delay) > kLeastDelay)) {
-      best.reading.delay = delay;
+        asked);
+    const bool is_alone = std::count(asked.begin(), asked.end(), true) == 1;
+    state_.joints_of_delay = is_alone ? 1 : found.joints;
+    if (found.IsBeyond(kLeastDelay)) {
+      best.reading.delay = found.mean;
+    } else if (is_alone && found.inside && std::abs(found.best) > kLeastDelay) {
+      best.reading.delay = found.best;
     }
     return best;
   }

@@ -3,6 +3,20 @@
 #include "calib/inspect/torque_scale.h"
 
 namespace armcal {
+namespace {
+
+// Delays that have nothing to do with each other, anywhere within the 80 ms to
+// either side, agree within two deviations of each, some 10 ms, in a fourth of
+// the cases where there are two, and in a sixteenth where there are three.
+constexpr int kFewWhoAgree = 2;
+
+// Whether more than half of the squares that are left as it is are gone, in
+// both halves and all samples.
+bool ExplainsMost(const HeldOutFit& as_is, const HeldOutFit& changed) {
+  return (2 * changed.all.array() < as_is.all.array()).all();
+}
+
+}  // namespace
 
 bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
                  const HeldOutFit& as_is, const HeldOutFit& held_out) {
@@ -13,7 +27,9 @@ bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
       OfColumns(held_out, candidate.reading.wiring.torque_column));
   const bool leaves_less = held_out.residual_percent < as_is.residual_percent;
   if (change.kind == Kind::kDelay) {
-    return all_fit_better || (state.joints_agree && leaves_less);
+    if (state.joints_of_delay == 1) return all_fit_better;
+    return leaves_less && (state.joints_of_delay > kFewWhoAgree ||
+                           ExplainsMost(as_is, held_out));
   }
   // One of the two is right, and the fit, whose friction and armature take
   // power and whose inertias are near the file's, tells which: of 98 logs of

@@ -40,8 +40,9 @@ struct ReadingState {
   LogReading best;
   double misfit = 0;    // of best
   HeldOutFit held_out;  // of best
-  // On the delay of the latest candidates.
-  bool joints_agree = false;
+  // How many agree on the delay of the latest candidates; 1: it is the only one
+  // that is asked.
+  int joints_of_delay = 0;
   std::vector<ReadingChange> changes;
 };
 
