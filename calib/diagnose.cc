@@ -17,6 +17,7 @@
 #include "calib/diagnosed_calibration.h"
 #include "calib/diagnosed_samples.h"
 #include "calib/force_torque/change.h"
+#include "calib/inspect/stuck_rows.h"
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
@@ -96,6 +97,18 @@ void SetController(const Robot& robot, const LogInput& held_out,
   }
   fit->controller = ReadController(options.controller, robot,
                                    fit->commanded[0].log.qref.row(0));
+}
+
+std::vector<DataFinding> LeaveOutStuck(
+    const Robot& robot, const std::vector<const LogInput*>& inputs,
+    const std::optional<double>& bandwidth_hz, LogReaderOptions* reading) {
+  std::vector<DataFinding> all;
+  for (const LogInput* input : inputs) {
+    const std::vector<DataFinding> stuck = LeaveOutStuckRows(
+        robot, input->logs, input->crop, bandwidth_hz, reading);
+    all.insert(all.end(), stuck.begin(), stuck.end());
+  }
+  return all;
 }
 
 // Those that need no file.
@@ -290,6 +303,20 @@ DiagnoseSummary Summarise(const Robot& robot, const DiagnoseOptions& options,
   return summary;
 }
 
+// What a page or another program asks of it beside the words.
+void KeepDetails(const LogSet& held_out, const LogInput& calibrations_own,
+                 const DiagnoseOptions& options,
+                 std::shared_ptr<GapDiagnosis> details,
+                 DiagnoseSummary* summary) {
+  if (options.draw_torques) {
+    summary->torques = std::make_shared<DrawnTorques>(Draw(*details, held_out));
+  }
+  summary->details = std::move(details);
+  for (const LogSource& log : calibrations_own.logs) {
+    summary->calibration_logs.push_back(log.path());
+  }
+}
+
 // The logs of a diagnosis; null: there are none of these.
 struct DiagnosedLogs {
   const LogSet& training;
@@ -341,7 +368,11 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
   tbb::task_group looking;
+  std::vector<DataFinding> stuck;
   if (options.controller.empty()) {
+    stuck = LeaveOutStuck(
+        robot, {&logs, &options.validation, &options.reference, &own.input},
+        options.bandwidth_hz, &reading);
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();
     looking.run([&, scales] {
@@ -362,10 +393,11 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   CheckTimeUnits({&training, before, held_out});
   const Robot& known = calibrated ? calibrated->robot : robot;
   const std::optional<LogSet> beside = Open(own.input, reading);
-  const std::shared_ptr<GapDiagnosis> details =
+  std::shared_ptr<GapDiagnosis> details =
       DiagnosedGap(known, fit, TrustInFile(options, true),
                    {training, held_out, before, beside ? &*beside : nullptr});
   if (fit.may_trust_less) NoteTrust(fit.baseline.trust, details.get());
+  details->data.insert(details->data.begin(), stuck.begin(), stuck.end());
   AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {
     NoteCalibration(*calibrated, own, {&training, held_out, before},
@@ -379,14 +411,8 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
       known, details->bandwidth_hz, options.progress, training, before);
   DiagnoseSummary summary =
       Summarise(robot, options, changes, sensor, NamesOf(logs.logs), *details);
-  if (options.draw_torques) {
-    summary.torques = std::make_shared<DrawnTorques>(
-        Draw(*details, validation ? *validation : training));
-  }
-  summary.details = std::move(details);
-  for (const LogSource& log : own.input.logs) {
-    summary.calibration_logs.push_back(log.path());
-  }
+  KeepDetails(validation ? *validation : training, own.input, options,
+              std::move(details), &summary);
   return summary;
 }
 

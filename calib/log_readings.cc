@@ -49,11 +49,21 @@ std::optional<LogInspection> Inspected(const Robot& robot, const LogSource& log,
                                        const LogReaderOptions& options,
                                        int most_rows) {
   try {
+    // It leaves the same rows out by itself.
+    LogReaderOptions whole = options;
+    whole.left_out.clear();
     LogInspection inspection = InspectLog(
-        robot, log, options, 0, most_rows > 0 ? most_rows : kMostInspectedRows);
+        robot, log, whole, 0, most_rows > 0 ? most_rows : kMostInspectedRows);
     if (IsTilt(robot, inspection.reading)) {
       DropFindings(
           [](const InspectionFinding& f) { return f.finding == "gravity"; },
+          &inspection.findings);
+    }
+    if (options.left_out.count(log.name) > 0) {
+      DropFindings(
+          [](const InspectionFinding& f) {
+            return f.finding == "stuck" && f.leads;
+          },
           &inspection.findings);
     }
     return inspection;

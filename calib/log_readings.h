@@ -26,7 +26,8 @@ struct ReadingQuestions {
 // them where `scales` is false: a reference that was recorded alike has it,
 // too. Then logs are held against the first of them: torques that are several
 // times as large on all joints are in another unit. Where `scales` is true a
-// joint of the file that seems to be reversed is told as well, as a doubt.
+// joint of the file that seems to be reversed is told as well, as a doubt. Rows
+// that the options leave out as stuck are not told again.
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,
                                        const LogReaderOptions& options,

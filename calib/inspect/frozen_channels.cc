@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
+#include <utility>
 
-#include "calib/logs/wiring.h"
+#include "calib/inspect/equal_rows.h"
+#include "calib/inspect/rows_fit.h"
 #include "calib/numerics/autoregression.h"
-#include "model/dynamics/inverse_dynamics.h"
-#include "model/text/format.h"
-#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -17,58 +15,18 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Nats by which both other hypotheses have to fail, as those of readings and
-// zeros have to (log_reading.cc, joint_zero.cc).
-constexpr double kNatsToClaim = 15;
+// Nats by which chance has to fail, of thousands of runs: as many as readings
+// and zeros are asked for (reading_state.h, joint_zero.cc).
+constexpr double kNatsOfChance = 15;
+// Right logs of which one may have a false claim. Of the 118 of ../shared/data,
+// in which 559 runs are asked, none has more than .52 nats.
+constexpr double kLogsOfOneClaim = 100;
 constexpr double kRestingTime = 1;      // s, of a position, as of stuck columns
 constexpr double kSlowestMotion = .02;  // rad/s or m/s, as of stuck columns
 constexpr double kMovingShare = .2;     // of a joint's rms speed, as TorqueFit
-constexpr size_t kSamplesOfFit = 500;
-constexpr size_t kFewestOfFit = 60;
-constexpr double kTanhWidth = .03;  // rad/s or m/s, as TorqueFit
 // Static over sliding friction is .78 / .42 = 1.9 of hard steel on hard steel,
 // dry (Marks' Standard Handbook for Mechanical Engineers).
 constexpr double kBreakaway = 2;
-constexpr double kBestShare = .01;  // of the torque: no model is better
-
-struct EqualRows {
-  int begin = 0, end = 0;  // rows
-  int repeats = 0;         // of the row before, that count
-};
-
-// Runs of equal values, with one row at least, of rows that `count`.
-std::vector<EqualRows> RunsOf(const VectorXd& x,
-                              const std::vector<bool>& counts) {
-  std::vector<EqualRows> runs;
-  const auto rows = static_cast<int>(x.size());
-  for (int k = 0; k < rows;) {
-    EqualRows run{k, k + 1};
-    bool any = counts[k];
-    for (; run.end < rows && x[run.end] == x[k]; ++run.end) {
-      run.repeats += counts[run.end] && counts[run.end - 1];
-      any = any || counts[run.end];
-    }
-    if (any) runs.push_back(run);
-    k = run.end;
-  }
-  return runs;
-}
-
-// Those that are too long for chance, beside the longest of the others.
-std::vector<EqualRows> TooLong(std::vector<EqualRows> runs) {
-  constexpr size_t kMostRuns = 8;
-  std::sort(runs.begin(), runs.end(),
-            [](const auto& a, const auto& b) { return a.repeats > b.repeats; });
-  const double log_m = std::log(static_cast<double>(runs.size()));
-  size_t count = 0;
-  for (size_t k = 0; k < std::min(kMostRuns, runs.size()); ++k) {
-    const int next = k + 1 < runs.size() ? runs[k + 1].repeats : 0;
-    const double nats = log_m * (runs[k].repeats / std::max(1., 1. * next) - 1);
-    if (nats > kNatsToClaim) count = k + 1;
-  }
-  runs.resize(count);
-  return runs;
-}
 
 class FrozenSearch {
  public:
@@ -109,7 +67,8 @@ class FrozenSearch {
     std::vector<bool> counts(log_.size());
     for (int k = 0; k < log_.size(); ++k) counts[k] = Moves(SampleAt(k), j);
     const VectorXd tau = log_.tau.col(j);
-    for (const EqualRows& run : TooLong(RunsOf(tau, counts))) {
+    for (const EqualRows& run :
+         TooLongForChance(RunsOfEqualRows(tau, counts), kNatsOfChance)) {
       candidates_.push_back({j, false, run.begin, run.end, tau[run.begin]});
     }
   }
@@ -117,7 +76,7 @@ class FrozenSearch {
   void AddPositions(int j) {
     const VectorXd q = log_.q.col(j);
     const std::vector<bool> all(log_.size(), true);
-    for (const EqualRows& run : RunsOf(q, all)) {
+    for (const EqualRows& run : RunsOfEqualRows(q, all)) {
       if (log_.t[run.end - 1] - log_.t[run.begin] < kRestingTime) continue;
       candidates_.push_back({j, true, run.begin, run.end, q[run.begin]});
     }
@@ -131,16 +90,6 @@ class FrozenSearch {
   }
   double Reach() const { return 1 / series_.bandwidth_hz(); }
 
-  WiringSamples SamplesAt(const std::vector<int>& rows) const {
-    WiringSamples samples;
-    samples.motion.dt = series_.dt();
-    samples.motion.q = series_.motion().q(rows, Eigen::all);
-    samples.motion.qd = series_.motion().qd(rows, Eigen::all);
-    samples.motion.qdd = series_.motion().qdd(rows, Eigen::all);
-    samples.tau = series_.tau()(rows, Eigen::all);
-    return samples;
-  }
-
   // To what is near none of joint j's candidates; false where that is too
   // little.
   bool FitBeside(int j) {
@@ -153,82 +102,9 @@ class FrozenSearch {
         rows.push_back(sample);
       }
     }
-    const size_t all = rows.size();
-    if (all < kFewestOfFit) return false;
-    const size_t size = std::min(kSamplesOfFit, all);
-    for (size_t k = 0; k < size; ++k) rows[k] = rows[k * all / size];
-    rows.resize(size);
-    SetFigures(SamplesAt(rows), j,
-               static_cast<double>(all) / static_cast<double>(size));
-    const auto half = rows.begin() + static_cast<long>(size / 2);
-    fits_ = {FitTo(rows), FitTo({rows.begin(), half}),
-             FitTo({half, rows.end()})};
+    if (rows.size() < RowsFit::kFewest) return false;
+    fit_.emplace(robot_, series_, std::move(rows));
     return true;
-  }
-
-  // What a fit to these samples, of `times` as many, is like; of joint j the
-  // torque, too.
-  void SetFigures(const WiringSamples& samples, int j, double times) {
-    const TorqueFit fit(robot_, samples.motion);
-    const MatrixXd ones =
-        MatrixXd::Ones(samples.tau.rows(), samples.tau.cols());
-    const VectorXd counts =
-        fit.InMotion(ones).colwise().sum().transpose().cwiseMax(1);
-    const MatrixXd tau = fit.InMotion(samples.tau);
-    const VectorXd squares =
-        tau.colwise().squaredNorm().transpose().cwiseQuotient(counts);
-    left_ = fit.Squares(fit.Parameters(samples.tau), samples.tau)
-                .cwiseQuotient(counts) +
-            kBestShare * kBestShare * squares;
-    mean_ = tau.col(j).sum() / counts[j];
-    variance_ = squares[j] - mean_ * mean_;
-    moved_ = counts[j] * times * series_.dt();
-  }
-
-  struct FittedArm {
-    Robot robot;   // its links
-    VectorXd own;  // viscous, Coulomb, offset, armature of each joint
-  };
-  FittedArm FitTo(const std::vector<int>& rows) const {
-    const WiringSamples samples = SamplesAt(rows);
-    const VectorXd x =
-        TorqueFit(robot_, samples.motion).Parameters(samples.tau);
-    FittedArm fitted{robot_, x.tail(4 * robot_.num_joints())};
-    for (int i = 0; i < robot_.num_joints(); ++i) {
-      fitted.robot.links[i].inertial =
-          InertialParameters::FromVector(x.segment<10>(10 * i));
-    }
-    return fitted;
-  }
-
-  // The joint's torque by a fit; without its own where its position is what is
-  // asked.
-  static VectorXd Needed(const FittedArm& arm, const Motion& motion,
-                         const FrozenChannel& run) {
-    const int j = run.joint;
-    VectorXd needed(motion.size());
-    for (int s = 0; s < motion.size(); ++s) {
-      needed[s] = InverseDynamics(arm.robot, motion.q.row(s), motion.qd.row(s),
-                                  motion.qdd.row(s))[j];
-      if (run.is_position) continue;
-      const double qd = motion.qd(s, j);
-      needed[s] += arm.own[4 * j] * qd +
-                   arm.own[4 * j + 1] * std::tanh(qd / kTanhWidth) +
-                   arm.own[4 * j + 2] + arm.own[4 * j + 3] * motion.qdd(s, j);
-    }
-    return needed;
-  }
-
-  // The variance of what is needed there beyond what is recorded, if that is
-  // right: as elsewhere, and that of the fit itself, as the run may be where
-  // the arm is nowhere else. Fits to two halves of the log have twice its
-  // variance each, and their difference four times.
-  double UsualVariance(const FrozenChannel& run, const Motion& motion) const {
-    VectorXd apart =
-        Needed(fits_[1], motion, run) - Needed(fits_[2], motion, run);
-    if (run.is_position) apart.array() -= apart.mean();
-    return left_[run.joint] +
-           .25 * apart.squaredNorm() / static_cast<double>(apart.size());
   }
 
   // Of a torque: what the arm needs beyond the recorded one. At an end of the
@@ -237,7 +113,7 @@ class FrozenSearch {
                      const WiringSamples& samples) const {
     const VectorXd tau = log_.tau.col(run.joint);
     const VectorXd off =
-        Needed(fits_[0], samples.motion, run).array() - run.value;
+        fit_->Torque(samples.motion, run.joint, true).array() - run.value;
     if (run.value == 0) return off;
     if (run.value == tau.maxCoeff()) return off.cwiseMin(0);
     return run.value == tau.minCoeff() ? VectorXd(off.cwiseMax(0)) : off;
@@ -248,9 +124,9 @@ class FrozenSearch {
   VectorXd OffRest(const FrozenChannel& run,
                    const WiringSamples& samples) const {
     const VectorXd tau = samples.tau.col(run.joint);
-    const VectorXd off = tau - Needed(fits_[0], samples.motion, run);
+    const VectorXd off = tau - fit_->Torque(samples.motion, run.joint, false);
     const double middle = .5 * (off.minCoeff() + off.maxCoeff());
-    const double friction = kBreakaway * fits_[0].own[4 * run.joint + 1];
+    const double friction = kBreakaway * fit_->coulomb(run.joint);
     const VectorXd rest = off.unaryExpr([&](double x) {
       const double size = std::abs(x - middle) - friction;
       return size > 0 ? std::copysign(size, x - middle) : 0.;
@@ -261,9 +137,9 @@ class FrozenSearch {
 
   // Nats by which a column has nothing to do with the arm: `off` is N(0, v) if
   // it has, and `unrelated` N(0, V + v) if not.
-  double NatsOf(const VectorXd& off, const VectorXd& unrelated,
-                double v) const {
-    const double V = variance_ + v;
+  static double NatsOf(const VectorXd& off, const VectorXd& unrelated, double v,
+                       double of_torque) {
+    const double V = of_torque + v;
     const double of_sample =
         .5 * (off.squaredNorm() / v - unrelated.squaredNorm() / V) /
             static_cast<double>(off.size()) -
@@ -279,16 +155,20 @@ class FrozenSearch {
     double nats = 0;
     for (int k = 0; k < robot_.num_joints(); ++k) {
       if (k == run.joint) continue;
-      const FrozenChannel other{k, false, run.begin, run.end};
       const VectorXd off =
-          Needed(fits_[0], samples.motion, other) - samples.tau.col(k);
+          fit_->Torque(samples.motion, k, true) - samples.tau.col(k);
       const double ratio = off.squaredNorm() / static_cast<double>(off.size()) /
-                           UsualVariance(other, samples.motion);
+                           fit_->VarianceAbout(samples.motion, k, true);
       if (!(ratio > 1)) continue;
       nats += .5 * std::max(1., IndependentSamples(off)) *
               (ratio - 1 - std::log(ratio));
     }
     return nats;
+  }
+
+  // Each run that is asked may be claimed by mistake.
+  double NatsToClaim() const {
+    return std::log(kLogsOfOneClaim * static_cast<double>(candidates_.size()));
   }
 
   // A drive that is off while a brake stops its joint has a torque of zero,
@@ -309,20 +189,23 @@ class FrozenSearch {
       if (Counts(*run, s)) rows.push_back(s);
     }
     if (rows.size() < 3) return false;
-    const WiringSamples samples = SamplesAt(rows);
+    const WiringSamples samples = SamplesAt(series_, rows);
     const VectorXd off =
         run->is_position ? OffRest(*run, samples) : OffTorque(*run, samples);
     const VectorXd unrelated =
-        run->is_position ? VectorXd(samples.tau.col(run->joint).array() - mean_)
+        run->is_position ? VectorXd(samples.tau.col(run->joint).array() -
+                                    fit_->mean(run->joint))
                          : off;
-    const double v = UsualVariance(*run, samples.motion);
-    run->nats = NatsOf(off, unrelated, v);
+    const double v =
+        fit_->VarianceAbout(samples.motion, run->joint, !run->is_position);
+    run->nats = NatsOf(off, unrelated, v, fit_->variance(run->joint));
     if (run->is_position && run->nats > 0) {
       run->nats += NatsOfOthers(*run, samples);
     }
     run->gap = off.norm() / std::sqrt(off.size());
     run->usual = std::sqrt(v);
-    return moved_ > kRestingTime && run->nats > kNatsToClaim;
+    return fit_->time_in_motion(run->joint) > kRestingTime &&
+           run->nats > NatsToClaim();
   }
 
   const Robot& robot_;
@@ -330,12 +213,7 @@ class FrozenSearch {
   const UniformSeries& series_;
   Eigen::RowVectorXd least_speed_;
   std::vector<FrozenChannel> candidates_;
-  // Of the joint that is asked: mean and variance of its torque elsewhere, and
-  // for how long it moves there, s. Of each what the fit leaves, (N m)^2 or
-  // N^2.
-  double mean_ = 0, variance_ = 0, moved_ = 0;
-  VectorXd left_;
-  std::vector<FittedArm> fits_;  // to all rows, and to two halves of them
+  std::optional<RowsFit> fit_;  // of the joint that is asked
 };
 
 }  // namespace
@@ -344,62 +222,6 @@ std::vector<FrozenChannel> FindFrozenChannels(const Robot& robot,
                                               const Log& log,
                                               const UniformSeries& series) {
   return FrozenSearch(robot, log, series).Run();
-}
-
-bool IsOf(const FrozenChannel& run, const InspectionFinding& finding) {
-  const std::string signal = run.is_position ? "position" : "torque";
-  return finding.joint == run.joint &&
-         finding.sentence.compare(0, signal.size(), signal) == 0;
-}
-
-std::vector<InspectionFinding> FrozenFindings(
-    const Robot& robot, const VectorXd& t,
-    const std::vector<FrozenChannel>& frozen) {
-  std::vector<InspectionFinding> findings;
-  for (const FrozenChannel& run : frozen) {
-    const std::string& joint = robot.links[run.joint].joint.name;
-    InspectionFinding finding{
-        "stuck",
-        std::string("the ") + (run.is_position ? "position" : "torque") +
-            " of " + joint +
-            Format(" is stuck at %.6g from %.6g s to %.6g s", run.value,
-                   t[run.begin], t[run.end - 1]),
-        Format("%d rows of one number; ", run.end - run.begin) +
-            Format(run.is_position
-                       ? "its torque goes on, %.3g rms from what holds it at "
-                         "rest, where a fit of the arm leaves %.3g elsewhere"
-                       : "a fit of the arm to all other rows leaves %.3g rms "
-                         "there and %.3g elsewhere",
-                   run.gap, run.usual) +
-            Format(" (%.0f nats)", run.nats),
-        OptionName("fix") + " writes the log without these rows", run.joint};
-    finding.leads = true;
-    findings.push_back(finding);
-  }
-  return findings;
-}
-
-Log WithoutFrozenRows(const Log& log,
-                      const std::vector<FrozenChannel>& frozen) {
-  std::vector<int> rows;
-  for (int k = 0; k < log.size(); ++k) {
-    if (std::none_of(frozen.begin(), frozen.end(),
-                     [k](const FrozenChannel& run) {
-                       return run.begin <= k && k < run.end;
-                     })) {
-      rows.push_back(k);
-    }
-  }
-  Log kept = log;
-  kept.t = log.t(rows).eval();
-  for (MatrixXd Log::*signal :
-       {&Log::q, &Log::qd, &Log::qdd, &Log::tau, &Log::qref, &Log::temperature,
-        &Log::wrench, &Log::current}) {
-    if ((log.*signal).size() > 0) {
-      kept.*signal = (log.*signal)(rows, Eigen::all).eval();
-    }
-  }
-  return kept;
 }
 
 }  // namespace armcal

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/inspect/frozen_findings.h"
 #include "calib/inspect/held_out_fit.h"
+#include "calib/inspect/inspected_series.h"
 #include "calib/inspect/joint_zero.h"
 #include "calib/inspect/jump_findings.h"
 #include "calib/inspect/position_unit.h"
@@ -25,7 +27,6 @@ using Eigen::VectorXd;
 
 constexpr int kSamples = 400;
 constexpr int kLeastMoving = 60;
-constexpr double kBandwidth = 8;  // Hz, of what torques are compared with
 
 class Inspector {
  public:
@@ -152,9 +153,7 @@ class Inspector {
   }
 
   UniformSeries Series() const {
-    const double dt = std::max(result_.stamps.mean_step, .002);
-    const double hz = std::min(kBandwidth, .2 / dt);
-    return {log_, dt, std::max(.25 / hz, 3 * dt), hz};
+    return InspectedSeries(log_, result_.stamps.mean_step);
   }
 
   // What a fit leaves of torques held out, read as they are.

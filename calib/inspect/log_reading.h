@@ -27,12 +27,12 @@ struct ReadingFinding {
 
 // Reads a log as its torques fit the robot best: up to four changes, one after
 // the other, each of which has to explain much more than chance and a model's
-// own errors do: `kLeastGain` nats of some hundred samples, and, of torques
-// that the fit has not seen, what IsClearlyBetter and IsBetterForAll say. Of
-// signs and order nothing is asked of joints that hardly move, nor of those
-// whose torque tells nothing; of gravity nothing where one of several joints
-// moves. A unit of positions that something else speaks for comes first, and
-// has to fit no worse.
+// own errors do: `kLeastReadingGain` nats of some hundred samples, and, of
+// torques that the fit has not seen, what IsClearlyBetter and IsBetterForAll
+// say. Of signs and order nothing is asked of joints that hardly move, nor of
+// those whose torque tells nothing; of gravity nothing where one of several
+// joints moves. A unit of positions that something else speaks for comes first,
+// and has to fit no worse.
 ReadingFinding FindReading(const Robot& robot, const UniformSeries& series,
                            const ReadingHints& hints = {});
 

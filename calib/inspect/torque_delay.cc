@@ -112,6 +112,7 @@ TorqueDelay FindTorqueDelay(const TorqueFit& fit,
   result.inside = IsInside(sum, k);
   result.best =
       result.inside ? LowestDelay(sum, k) : DelayAt(static_cast<double>(k));
+  result.joints = static_cast<int>(told.size());
   const auto of = std::count(asked.begin(), asked.end(), true);
   result.known = told.size() > 1 && 2 * static_cast<long>(told.size()) > of;
   if (result.known) SetMean(told, &result);

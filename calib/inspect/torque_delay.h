@@ -19,6 +19,7 @@ struct TorqueDelay {
   // have in common (DerSimonian and Laird 1986).
   double mean = 0, stddev = 0;
   bool known = false;  // more than half of the joints asked tell one
+  int joints = 0;      // that tell one
 
   // Whether the mean's interval of 95 % lies beyond that, on either side.
   bool IsBeyond(double least) const;

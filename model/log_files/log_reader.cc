@@ -48,6 +48,8 @@ struct LogReader::Impl {
     CheckTorqueFactors(options);
     const auto timed = options.sample_times.find(path);
     if (timed != options.sample_times.end()) sample_times = timed->second;
+    const auto holes = options.left_out.find(path);
+    if (holes != options.left_out.end()) left_out = holes->second;
     q = row.Use(columns.Find(Signal::kPosition));
     if (options.want_velocity && columns.HasAll(Signal::kVelocity)) {
       qd = row.Use(columns.Find(Signal::kVelocity));
@@ -214,7 +216,18 @@ struct LogReader::Impl {
     last_field = last_time;
   }
 
+  // Rows that follow each other, but for those that are left out.
   bool Read(int max_rows, Log* log) {
+    while (ReadRows(max_rows, log)) {
+      next_row += log->size();
+      if (left_out.empty()) return true;
+      *log = WithoutRows(*log, left_out, next_row - log->size());
+      if (log->size() > 0) return true;
+    }
+    return false;
+  }
+
+  bool ReadRows(int max_rows, Log* log) {
     CHECK_GT(max_rows, 0);
     *log = Log();
     log->simulated = columns.simulated();
@@ -275,7 +288,7 @@ struct LogReader::Impl {
   }
 
   void Rewind() {
-    next_reconstructed = next_sample = 0;
+    next_row = next_reconstructed = next_sample = 0;
     source->Rewind();
     Header();
     lines.clear();
@@ -301,6 +314,8 @@ struct LogReader::Impl {
   std::shared_ptr<const ReconstructedTorque> reconstructed;
   std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
   long next_reconstructed = 0, next_sample = 0;         // rows of both
+  std::vector<RowRange> left_out;
+  long next_row = 0;  // that is read, of all rows
 
   std::vector<std::string_view> lines;  // that the source has given
   size_t next_line = 0;

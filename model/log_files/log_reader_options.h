@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/log_files/log_topic.h"
+#include "model/log_files/row_range.h"
 
 namespace armcal {
 
@@ -61,6 +62,8 @@ struct LogReaderOptions {
   // By path: the time of each row, s since the first, for a log whose stamps
   // are known to be wrong.
   std::map<std::string, std::shared_ptr<const Eigen::VectorXd>> sample_times;
+  // By path: rows that are not to be read, as what they have was not measured.
+  std::map<std::string, std::vector<RowRange>> left_out;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;
   bool want_acceleration = false;

@@ -155,17 +155,19 @@ TEST_F(LogReadingsTest, GapsAreNamedWhereTheyLeaveNothing) {
   }
 }
 
-// Zeros of half a second lead the diagnosis, and are no touch.
-TEST_F(LogReadingsTest, ATorqueThatWasNotRecordedIsNoTouch) {
+// Rows that are left out as stuck were told when they were.
+TEST_F(LogReadingsTest, WhatIsLeftOutIsNotToldAgain) {
   Log log = arm_.log;
   log.qd.resize(0, 0);
   Eigen::Index at = 0;
   log.tau.col(1).segment(200, 1500).cwiseAbs().maxCoeff(&at);
   log.tau.col(1).segment(at + 175, 50).setZero();
-  const DiagnoseSummary summary = Diagnosis(log, &arm_.log);
-  EXPECT_THAT(summary.brief, HasSubstr("the torque of joint2 is stuck at 0"));
-  EXPECT_EQ(summary.verdict, "not_testable");
-  EXPECT_TRUE(summary.effects.empty());
+  const std::vector<DataFinding> wrong = Wrong(log, true);
+  ASSERT_EQ(wrong.size(), 1u);
+  EXPECT_THAT(wrong[0].finding,
+              HasSubstr("the torque of joint2 is stuck at 0"));
+  options_.left_out["log.csv"] = {{at + 175, at + 225}};
+  EXPECT_TRUE(Wrong(log, true).empty());
 }
 
 // Degrees would be friction and a clock of another rate.

@@ -130,4 +130,21 @@ TEST_F(FrozenChannelsTest, AJointThatRestsIsNone) {
   EXPECT_TRUE(Frozen(log).empty());
 }
 
+// Of two joints and 8 s, half of them: what is fitted beside them is little,
+// and what the torque says counts for one or two samples. No step of the
+// position tells that it stopped.
+TEST(FrozenChannels, AnEncoderThatStopsWhereItTurnsRoundIsTold) {
+  InspectedArm arm("2R planar (vertical plane)", 8);
+  arm.log.qd.resize(0, 0);
+  const Eigen::VectorXd q = arm.log.q.col(0);
+  Eigen::Index row = 300;
+  while ((q[row] - q[row - 1]) * (q[row + 1] - q[row]) > 0) ++row;
+  arm.log.q.col(0).segment(row, 400).setConstant(q[row]);
+  const auto frozen =
+      FindFrozenChannels(arm.robot, arm.log, {arm.log, .01, .05, 8});
+  ASSERT_EQ(frozen.size(), 1u);
+  EXPECT_TRUE(frozen[0].is_position);
+  EXPECT_EQ(frozen[0].joint, 0);
+}
+
 }  // namespace armcal::frozen_channels_test

@@ -1,0 +1,45 @@
+#include "calib/inspect/reading_confirmation.h"
+
+#include <gtest/gtest.h>
+
+#include "calib/inspect/log_reading.h"
+#include "tests/fixtures/inspected_arm.h"
+
+namespace armcal::reading_confirmation_test {
+
+using Kind = ReadingChange::Kind;
+
+// The second encoder and motor see half of the first joint's angle, too, as
+// coupled drives do, and the model does not know: both joints look late,
+// and a shift of the torques takes a sixth of the squares that are left.
+TEST(ReadingConfirmation, WhatTheModelLacksIsNoDelay) {
+  const InspectedArm arm("2R planar (vertical plane)");
+  std::mt19937_64 random(7);
+  Log log = RecordMotion(RandomMultisine(&random, 2), 8, .01);
+  AddTorque(arm.robot, &log);
+  for (int j = 0; j < 2; ++j) {
+    AddCoulomb(j, 2, {CoulombTransition::Law::kVelocity, .02}, &log);
+  }
+  AddNoise(&random, .01 * ColumnRms(log.tau), &log.tau);
+  log.q.col(1) += .5 * log.q.col(0);
+  log.tau.col(0) -= .5 * log.tau.col(1);
+  const ReadingFinding found =
+      FindReading(arm.robot, UniformSeries(log, .01, .05, 8));
+  EXPECT_TRUE(found.changes.empty());
+  EXPECT_EQ(found.reading.delay, 0);
+}
+
+// Two joints that agree, where all torques are late.
+TEST(ReadingConfirmation, LateTorquesOfTwoJoints) {
+  InspectedArm arm("2R planar (vertical plane)");
+  const Eigen::Index size = arm.log.tau.rows() - 3;
+  const Eigen::MatrixXd tau = arm.log.tau;
+  arm.log.tau.bottomRows(size) = tau.topRows(size);
+  const ReadingFinding found =
+      FindReading(arm.robot, UniformSeries(arm.log, .01, .05, 8));
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].kind, Kind::kDelay);
+  EXPECT_NEAR(found.reading.delay, .03, .003);
+}
+
+}  // namespace armcal::reading_confirmation_test
