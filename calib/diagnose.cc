@@ -99,16 +99,14 @@ void SetController(const Robot& robot, const LogInput& held_out,
                                    fit->commanded[0].log.qref.row(0));
 }
 
-std::vector<DataFinding> LeaveOutStuck(
-    const Robot& robot, const std::vector<const LogInput*>& inputs,
-    const std::optional<double>& bandwidth_hz, LogReaderOptions* reading) {
-  std::vector<DataFinding> all;
+std::vector<UsedLog> PartsOf(const std::vector<const LogInput*>& inputs) {
+  std::vector<UsedLog> used;
   for (const LogInput* input : inputs) {
-    const std::vector<DataFinding> stuck = LeaveOutStuckRows(
-        robot, input->logs, input->crop, bandwidth_hz, reading);
-    all.insert(all.end(), stuck.begin(), stuck.end());
+    for (const LogSource& log : input->logs) {
+      used.push_back({log, input->crop});
+    }
   }
-  return all;
+  return used;
 }
 
 // Those that need no file.
@@ -370,8 +368,9 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   tbb::task_group looking;
   std::vector<DataFinding> stuck;
   if (options.controller.empty()) {
-    stuck = LeaveOutStuck(
-        robot, {&logs, &options.validation, &options.reference, &own.input},
+    stuck = LeaveOutStuckRows(
+        robot,
+        PartsOf({&logs, &options.validation, &options.reference, &own.input}),
         options.bandwidth_hz, &reading);
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();

@@ -90,9 +90,10 @@ ScaleRange RangeOf(const TorqueScales& scales) {
   return range;
 }
 
-// All joints of one log have to be beyond all of the other's. Where they are
-// one joint in both, a load may be several times its link, and no hundred
-// times: an arm carries what it weighs at most.
+// All joints of one log have to be beyond all of the other's, two at least,
+// since a load may be several times a single joint's link. Of an arm that has
+// no other joint it is no hundred times that: a body of fifty times the link's
+// mass at its end, where the link's own centre is half way.
 std::vector<DataFinding> OtherUnits(const LogSource& log,
                                     const TorqueScales& scales,
                                     const LogSource& other,
@@ -100,8 +101,9 @@ std::vector<DataFinding> OtherUnits(const LogSource& log,
   constexpr double kNoLoad = 100;
   const ScaleRange own = RangeOf(scales), its = RangeOf(others);
   if (own.joints == 0 || its.joints == 0) return {};
-  const double factor =
-      std::max(own.joints, its.joints) > 1 ? kNotInertia : kNoLoad;
+  const bool is_all_of_it = scales.scale.size() == 1;
+  if (std::max(own.joints, its.joints) == 1 && !is_all_of_it) return {};
+  const double factor = is_all_of_it ? kNoLoad : kNotInertia;
   if (own.low <= factor * its.high && own.high >= its.low / factor) return {};
   return {{"the torques of " + log.name + " and of " + other.name +
                " are not in one unit",

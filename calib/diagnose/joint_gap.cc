@@ -48,7 +48,9 @@ void SetRms(const Eigen::MatrixXd& rms, std::vector<JointGap>* joints) {
     gap.nominal_rms = row[0];
     gap.refit_rms = row[1];
     gap.after_rms = row[2];
-    if (!std::isnan(row[3])) gap.floor_rms = row[3];
+    if (std::isnan(row[3])) continue;
+    gap.floor_rms = row[3];
+    gap.torque_rms = row[4];
   }
 }
 

@@ -25,7 +25,7 @@ struct JointGap {
   // rms of what it may be by noise, and by how little is known of the model in
   // such motion (at reversals of friction, beyond a reference's speeds), N m.
   double floor_rms = 0;
-  double torque_rms = 0;  // of the recorded torque, N m or N
+  double torque_rms = 0;  // of the recorded torque there, N m or N
   // By which factor what the model leaves may be larger in this motion than in
   // the reference's, rms (MotionRange); 1 without one.
   double beyond_reference = 1;
@@ -38,8 +38,8 @@ struct JointGap {
 JointGap JointGapOf(const Robot& robot, const GapFit& fit,
                     const GapFigures& torque, int j);
 void SetBeyondReference(const GapFit& fit, std::vector<JointGap>* joints);
-// HeldOut::RmsOf as the joints' figures; the noise stays where nothing is held
-// out.
+// HeldOut::RmsOf as the joints' figures; noise and recorded torque stay those
+// of the fitted logs where nothing is held out.
 void SetRms(const Eigen::MatrixXd& rms, std::vector<JointGap>* joints);
 
 // What no effect explains, in sample: its share of what a refit leaves beyond

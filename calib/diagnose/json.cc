@@ -162,6 +162,7 @@ json WhereJson(const std::vector<JointGap>& joints) {
                     {"refit_rms", JsonNumber(joint.refit_rms)},
                     {"after_rms", JsonNumber(joint.after_rms)},
                     {"floor_rms", JsonNumber(joint.floor_rms)},
+                    {"beyond_reference", JsonNumber(joint.beyond_reference)},
                     {"torque_rms", JsonNumber(joint.torque_rms)},
                     {"organised_by", joint.organised.by}});
   }

@@ -115,10 +115,16 @@ std::string ReferenceOfThisMotion(const GapDiagnosis& diagnosis) {
                        [](const JointGap& a, const JointGap& b) {
                          return a.beyond_reference < b.beyond_reference;
                        });
-  if (worst == diagnosis.joints.end() || worst->beyond_reference < 2) return "";
+  constexpr double kMostOfTheVariance = 2;
+  if (worst == diagnosis.joints.end() ||
+      worst->beyond_reference < kMostOfTheVariance) {
+    return "";
+  }
   return Format(
-      "a reference that moves as fast as this log: beyond the speeds that the "
-      "reference has, what its model leaves of %s may be %.2g times as large",
+      "a reference that moves as fast as this log: beyond the speeds and "
+      "accelerations that the reference has, what its model leaves of %s may "
+      "be "
+      "%.3g times as large",
       worst->name.c_str(), worst->beyond_reference);
 }
 

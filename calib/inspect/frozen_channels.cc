@@ -149,7 +149,8 @@ class FrozenSearch {
 
   // Nats by which the other joints' torques say that a position is wrong: what
   // they leave there has another variance then, s^2, than elsewhere, v, and the
-  // largest likelihood of any s is n/2 (s^2/v - 1 - log s^2/v) above that of v.
+  // largest likelihood of any s is n/2 (s^2/v - 1 - log s^2/v) above that of v,
+  // of which log(n)/2 are what a fitted number gains by itself (Schwarz 1978).
   double NatsOfOthers(const FrozenChannel& run,
                       const WiringSamples& samples) const {
     double nats = 0;
@@ -160,8 +161,9 @@ class FrozenSearch {
       const double ratio = off.squaredNorm() / static_cast<double>(off.size()) /
                            fit_->VarianceAbout(samples.motion, k, true);
       if (!(ratio > 1)) continue;
-      nats += .5 * std::max(1., IndependentSamples(off)) *
-              (ratio - 1 - std::log(ratio));
+      const double n = std::max(1., IndependentSamples(off));
+      nats += std::max(
+          0., .5 * n * (ratio - 1 - std::log(ratio)) - .5 * std::log(n));
     }
     return nats;
   }

@@ -84,6 +84,7 @@ void RefineGravity(ReadingState* state) {
     state->Accept(tilted, misfit, 1, held_out);
   } else if (held_out.residual_percent < state->held_out.residual_percent) {
     before->held_out_after = held_out.residual_percent;
+    before->gain += state->misfit - misfit;
     state->best = at;
     state->misfit = misfit;
   }

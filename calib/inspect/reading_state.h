@@ -40,8 +40,8 @@ struct ReadingState {
   LogReading best;
   double misfit = 0;    // of best
   HeldOutFit held_out;  // of best
-  // How many agree on the delay of the latest candidates; 1: it is the only one
-  // that is asked.
+  // How many joints tell a delay, that of the latest candidates; 1: the arm has
+  // no other that could disagree.
   int joints_of_delay = 0;
   std::vector<ReadingChange> changes;
 };

@@ -15,12 +15,17 @@ namespace armcal {
 // the arm goes on (FindFrozenChannels) are not read from then on
 // (LogReaderOptions::left_out): of all joints, since the links of one are moved
 // by the others' torques, and a torque that is not known is no equation. What
-// was left out leads a diagnosis. A log of which too little motion would be
-// left, in stretches that a diagnosis can use, is read as it is; WrongReadings
-// says what is wrong with it then. `bandwidth_hz` as in a diagnosis.
+// was left out leads a diagnosis. They are looked for in a log's first
+// kMostInspectedRows rows. A log is read as it is where any part of it would be
+// left with less than 2 s of motion in stretches that a diagnosis can use;
+// WrongReadings says what is wrong with it then. `bandwidth_hz` as in a
+// diagnosis.
+struct UsedLog {
+  LogSource log;
+  TimeRange crop;
+};
 std::vector<DataFinding> LeaveOutStuckRows(
-    const Robot& robot, const std::vector<LogSource>& logs,
-    const TimeRange& crop, const std::optional<double>& bandwidth_hz,
-    LogReaderOptions* reading);
+    const Robot& robot, const std::vector<UsedLog>& used,
+    const std::optional<double>& bandwidth_hz, LogReaderOptions* reading);
 
 }  // namespace armcal

@@ -63,6 +63,8 @@ struct LogReaderOptions {
   // are known to be wrong.
   std::map<std::string, std::shared_ptr<const Eigen::VectorXd>> sample_times;
   // By path: rows that are not to be read, as what they have was not measured.
+  // Lines of a file that messages name (Log::first_row) count on as if there
+  // were none.
   std::map<std::string, std::vector<RowRange>> left_out;
   // Columns that are in the log and not wanted are not looked at.
   bool want_velocity = false;

@@ -22,12 +22,12 @@ namespace {
 double ProbabilityOfEvent(const GapFit& fit, const GapEvent& event,
                           const EffectEvidence& evidence, double chance_in_log,
                           const Eigen::VectorXd& scale) {
-  const Eigen::VectorXd by_pulses = event.pulse || event.as_pulse
-                                        ? scale
-                                        : Eigen::VectorXd::Ones(scale.size());
   if (!event.beyond_friction) return ProbabilityOf(evidence);
   const double odds = Limits().odds_of_no_contact;
   if (event.chance_of_logs) return ProbabilityBeyondChance(event.chance, odds);
+  const Eigen::VectorXd by_pulses = event.pulse || event.as_pulse
+                                        ? scale
+                                        : Eigen::VectorXd::Ones(scale.size());
   return std::min(
       std::max(ProbabilityBeyondOneReference(evidence),
                ProbabilityBeyondChance(chance_in_log, odds)),

@@ -50,7 +50,7 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
                                          double least) {
   const std::vector<double> durations = {.4, 1, 2};  // s
   const MatrixXd left =
-      deviations.unaryExpr([=](double x) { return std::isnan(x) ? 0 : x; });
+      deviations.unaryExpr([](double x) { return std::isnan(x) ? 0 : x; });
   std::optional<LogWindow> strongest;
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i), begin = rows.thin_begin(s);
@@ -73,9 +73,8 @@ std::optional<LogWindow> StrongestWindow(const GapRows& rows,
 }  // namespace
 
 MatrixXd Bounded(const MatrixXd& residual) {
-  const double most = 1e9;
-  return residual.unaryExpr([most](double x) {
-    return std::isfinite(x) ? std::clamp(x, -most, most) : most;
+  return residual.unaryExpr([](double x) {
+    return std::isfinite(x) && std::abs(x) < kUnbounded ? x : kUnbounded;
   });
 }
 
@@ -271,18 +270,26 @@ HeldOutSquares HeldOut::SquaresOf(const Residuals& residuals) const {
 }
 
 MatrixXd HeldOut::RmsOf(const Residuals& residuals) const {
-  MatrixXd rms(residuals.refit.cols(), 4);
+  const auto square = [](double left) {
+    return std::abs(left) < kUnbounded
+               ? left * left
+               : std::numeric_limits<double>::infinity();
+  };
+  std::vector<MatrixXd> torques;
+  for (const GapSegment& segment : segments()) torques.push_back(segment.tau);
+  const MatrixXd recorded = rows().ThinAll(torques);
+  MatrixXd rms(residuals.refit.cols(), 5);
   const std::vector<bool> masked = rows_->Masked();
   for (int j = 0; j < rms.rows(); ++j) {
-    Eigen::RowVector4d squares = Eigen::RowVector4d::Zero();
+    Eigen::RowVectorXd squares = Eigen::RowVectorXd::Zero(5);
     int count = 0;
     for (const int k : rows().SampleOfRow(j)) {
       if (masked[k]) continue;
       ++count;
-      squares += Eigen::RowVector4d(std::pow(residuals.nominal(k, j), 2),
-                                    std::pow(residuals.refit(k, j), 2),
-                                    std::pow(residuals.after(k, j), 2),
-                                    rows().variance(j, k));
+      squares += Eigen::Matrix<double, 1, 5>{
+          square(residuals.nominal(k, j)), square(residuals.refit(k, j)),
+          square(residuals.after(k, j)), rows().variance(j, k),
+          square(recorded(k, j))};
     }
     rms.row(j) = (squares / count).cwiseSqrt();
   }

@@ -14,10 +14,11 @@
 
 namespace armcal {
 
-// What a prediction leaves of torques, N m or N, which is not finite where a
-// law runs away outside of what it was fitted to (friction that grows as it
-// warms a joint): there it is more than any robot has, 1e9, and no sample that
-// is missing.
+// What a prediction leaves of torques, N m or N, with numbers in the place of
+// what is not finite: where a law runs away outside of what it was fitted to
+// (friction that grows as it warms a joint) what it leaves is kUnbounded, more
+// than any robot has, and no sample that is missing.
+inline constexpr double kUnbounded = 1e9;
 Eigen::MatrixXd Bounded(const Eigen::MatrixXd& residual);
 
 // Torques that are predicted by a model that was not fitted to them.
@@ -50,10 +51,11 @@ class HeldOut {
   };
   Residuals AllResiduals() const;
   HeldOutSquares SquaresOf(const Residuals& residuals) const;
-  // Per joint the rms of nominal, refit and after, and of the standard
-  // deviation that what is held out has by noise and by what the model is not
-  // known for, over the samples in which it moves and that are not masked:
-  // n x 4, N m or N; NaN where there are none.
+  // Per joint the rms of nominal, refit and after, of the standard deviation
+  // that what is held out has by noise and by what the model is not known for,
+  // and of the recorded torque, over the samples in which it moves and that are
+  // not masked: n x 5, N m or N; NaN where there are none, infinite where a
+  // prediction is (Bounded).
   Eigen::MatrixXd RmsOf(const Residuals& residuals) const;
   // By how much the k-th effect given the others lowers the mean square.
   EffectGain GainOf(size_t k) const;

@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "calib/diagnose/candidates/effect_odds.h"
-#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/select/chosen.h"
-#include "calib/diagnose/select/evidence_noise.h"
 #include "calib/diagnose/select/moved_zeros.h"
 #include "calib/diagnose/select/next_effect.h"
 #include "calib/diagnose/select/selection.h"

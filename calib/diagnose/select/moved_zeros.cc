@@ -10,6 +10,8 @@
 namespace armcal {
 namespace {
 
+using Eigen::VectorXd;
+
 std::vector<int> Offsets(const std::vector<GapCandidate>& candidates) {
   std::vector<int> offsets;
   for (int c = 0; c < static_cast<int>(candidates.size()); ++c) {
@@ -102,9 +104,10 @@ bool HaveZerosMoved(const std::vector<GapCandidate>& candidates,
   const std::vector<int> offsets = Offsets(candidates),
                          with = WithOffsets(candidates, set);
   const size_t most = options.most_effects + with.size() - set.size();
+  const double together =
+      ScoreTogether(*regression, candidates, set, smaller, offsets);
   const double zeros =
-      ScoreTogether(*regression, candidates, set, smaller, offsets) +
-      Continued(candidates, options, with, most, regression).odds;
+      together + Continued(candidates, options, with, most, regression).odds;
   const LongerSet effects =
       Continued(candidates, options, set, most, regression);
   regression->SettleEvidence(ColumnsOf(candidates, set));

@@ -11,12 +11,13 @@
 namespace armcal {
 
 // Whether zeros of torques have moved on several joints. Where they may have,
-// they are held against all effects that would else be taken one by one: of
-// what a payload and another effect make together they explain more than the
-// payload does. Both may have as many effects in all, each zero being one, and
-// zeros that are told as moved, which no probability goes with, have to be
-// likelier by what an effect has to be likelier than none by. Offsets of
-// several joints that are taken one by one are the same zeros.
+// these and the likeliest effects beside them are held against as many effects
+// that are taken one by one, each the likeliest: of what a payload and another
+// effect make together zeros explain more than the payload does. No probability
+// goes with zeros that have moved, so that they have to be likelier by as much
+// as one effect more has to be (SelectionOptions::threshold). Where offsets of
+// several joints are among the effects that are taken one by one, both say the
+// same.
 bool HaveZerosMoved(const std::vector<GapCandidate>& candidates,
                     const SelectionOptions& options,
                     const std::vector<int>& set, const GapScreen& smaller,

@@ -15,7 +15,8 @@ namespace armcal {
 struct NextEffect {
   int candidate = -1;
   double odds = -std::numeric_limits<double>::infinity();
-  // Of all, and which has them.
+  // The largest odds of all that were compared, whatever they explain, and
+  // whose these are.
   double best_odds = -std::numeric_limits<double>::infinity();
   int best = -1;
 };

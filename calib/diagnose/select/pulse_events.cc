@@ -129,6 +129,8 @@ std::vector<GapEvent> FindPulses(const GapRegression& regression,
   if (!regression.reference()) return {};
   std::vector<GapEvent> events =
       PulseSearch(regression, effects, *regression.data()).Find();
+  // What stands out less spoils others as well: many of them are what the model
+  // lacks, of which the larger ones are a part.
   DropSpoilt(regression.rows(), &events);
   events.erase(std::remove_if(events.begin(), events.end(),
                               [&](const GapEvent& event) {
@@ -152,7 +154,7 @@ std::vector<GapEvent> WithoutExplainedPulses(
   kept.clear();
   const std::vector<GapEvent> pulses = search.LargestIn(events);
   for (size_t k = 0; k < events.size(); ++k) {
-    if (events[k].pulse && !StandsOut(regression, pulses[k])) continue;
+    if (events[k].pulse && !StandsOut(unmasked, pulses[k])) continue;
     kept.push_back(events[k]);
   }
   return kept;
@@ -172,7 +174,7 @@ void ConfirmTouches(const GapRegression& regression,
     GapEvent& event = (*events)[k];
     if (event.beyond_friction) continue;
     const GapEvent& pulse = pulses[k];
-    if (!StandsOut(regression, pulse)) continue;
+    if (!StandsOut(unmasked, pulse)) continue;
     event.beyond_friction = true;
     event.chance = pulse.chance;
     event.as_pulse = pulse.contact;

@@ -12,7 +12,8 @@ namespace armcal {
 // Pushes on joints that move, one joint or several, as pulses of torque
 // (PulseScan) given the baseline and `effects`. Only a reference, in which
 // nothing touched the arm, tells what pulses a model leaves by itself, of
-// motion as it has (MotionRange): one of the log has to stand out from them.
+// motion as it has (MotionRange): one of the log has to stand out from them,
+// and beside a single reference from what models lack as a rule.
 // None where there is no reference, nor of what no touch is (DropSpoilt). Times
 // that are masked already have none.
 std::vector<GapEvent> FindPulses(const GapRegression& regression,

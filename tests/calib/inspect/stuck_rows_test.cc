@@ -30,8 +30,8 @@ class StuckRows : public testing::Test {
   }
 
   std::vector<DataFinding> LeaveOut(const Log& log, const TimeRange& crop) {
-    return LeaveOutStuckRows(arm_.robot, {LogSource("log.csv", log)}, crop, {},
-                             &reading_);
+    return LeaveOutStuckRows(arm_.robot, {{LogSource("log.csv", log), crop}},
+                             {}, &reading_);
   }
   DiagnoseSummary Diagnosis(const Log& log, const TimeRange& crop) const {
     DiagnoseOptions options;
@@ -68,6 +68,17 @@ TEST_F(StuckRows, AMotionHasNone) {
 TEST_F(StuckRows, OutsideOfACropAreNotTold) {
   const double end = log_.t[begin_] - .1;
   EXPECT_TRUE(LeaveOut(log_, {0, end}).empty());
+}
+
+// A log that is fitted up to a time and held out from there on.
+TEST_F(StuckRows, OfALogThatIsUsedTwiceAreToldOnce) {
+  const LogSource log("log.csv", log_);
+  const double at = log_.t[begin_];
+  const std::vector<UsedLog> parts = {{log, {0, at - 1}},
+                                      {log, {at - 1, log_.t[log_.size() - 1]}}};
+  EXPECT_EQ(LeaveOutStuckRows(arm_.robot, parts, {}, &reading_).size(), 1u);
+  ASSERT_EQ(reading_.left_out["log.csv"].size(), 1u);
+  EXPECT_EQ(reading_.left_out["log.csv"][0].begin, begin_);
 }
 
 // Half a second of zeros leads the diagnosis, which goes on: no touch, nor

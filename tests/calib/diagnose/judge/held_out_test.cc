@@ -124,7 +124,7 @@ TEST_F(HeldOutTest, AFoldChoosesWhatCanBe) {
 
 // The reference was a third as fast, so that what its model leaves may be nine
 // times as large in this motion. What is left is told as it is, and so is what
-// it may be, over the time in which nothing is masked.
+// it may be.
 TEST_F(HeldOutTest, TorquesAreToldAsTheyAre) {
   Motion slow = arm_.motion;
   slow.dt *= 3;

@@ -122,9 +122,12 @@ class PulsesOfAKnownArm : public testing::Test {
     segment.log = log;
     return segment;
   }
-  std::vector<GapEvent> Found(double push) {
+  // Beside so many reference logs.
+  std::vector<GapEvent> Found(double push, int references = 1) {
+    std::vector<GapSegment> before;
+    for (int k = 1; k <= references; ++k) before.push_back(Recorded(k, 0));
     GapRegression regression(baseline_, kBandwidth, {Recorded(0, push)},
-                             {Recorded(1, 0)});
+                             before);
     regression.Refit();
     return FindPulses(regression, {});
   }
@@ -143,9 +146,11 @@ TEST_F(PulsesOfAKnownArm, APushIsFound) {
 }
 
 // It is far more than the log's noise and than any pulse of the reference, and
-// far less than what the model may lack.
+// far less than what the model may lack: of how logs differ, two references
+// tell, and one does not.
 TEST_F(PulsesOfAKnownArm, WhatAnyModelLacksIsNoPush) {
   EXPECT_TRUE(Found(.03).empty());
+  EXPECT_FALSE(Found(.03, 2).empty());
 }
 
 }  // namespace armcal::pulse_events_test
