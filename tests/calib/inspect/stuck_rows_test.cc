@@ -70,12 +70,14 @@ TEST_F(StuckRows, OutsideOfACropAreNotTold) {
   EXPECT_TRUE(LeaveOut(log_, {0, end}).empty());
 }
 
-// A log that is fitted up to a time and held out from there on.
+// A log that is fitted up to a time, held out from there on, and a
+// calibration's own as far as it goes.
 TEST_F(StuckRows, OfALogThatIsUsedTwiceAreToldOnce) {
   const LogSource log("log.csv", log_);
   const double at = log_.t[begin_];
-  const std::vector<UsedLog> parts = {{log, {0, at - 1}},
-                                      {log, {at - 1, log_.t[log_.size() - 1]}}};
+  const double end = log_.t[log_.size() - 1];
+  const std::vector<UsedLog> parts = {
+      {log, {0, at - 1}}, {log, {at - 1, end}}, {log, {0, end}}};
   EXPECT_EQ(LeaveOutStuckRows(arm_.robot, parts, {}, &reading_).size(), 1u);
   ASSERT_EQ(reading_.left_out["log.csv"].size(), 1u);
   EXPECT_EQ(reading_.left_out["log.csv"][0].begin, begin_);
