@@ -123,8 +123,7 @@ std::string ReferenceOfThisMotion(const GapDiagnosis& diagnosis) {
   return Format(
       "a reference that moves as fast as this log: beyond the speeds and "
       "accelerations that the reference has, what its model leaves of %s may "
-      "be "
-      "%.3g times as large",
+      "be %.3g times as large",
       worst->name.c_str(), worst->beyond_reference);
 }
 

@@ -367,17 +367,14 @@ double SplittingGaps::BridgingBandwidth() const {
   return std::floor(kGapPeriods / longest);
 }
 
-// One run between the bent ends.
-double ShortestMotion(double bandwidth_hz) {
-  return std::max(kShortestSegment, (2 * GapRows::kPeriodsAtEnds +
-                                     kShortestRun / kRateOverBandwidth) /
-                                        bandwidth_hz);
-}
-
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
                  const LogSet& logs) {
   if (GapRows(segments, bandwidth_hz).num_rows() > 0) return;
-  const double needed = ShortestMotion(bandwidth_hz);
+  // One run between the bent ends.
+  const double needed = std::max(
+      kShortestSegment,
+      (2 * GapRows::kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) /
+          bandwidth_hz);
   const SplittingGaps gaps = GapsThatSplit(bandwidth_hz, logs);
   std::string remedy = "or a higher " + OptionName("bandwidth") + " than " +
                        NumberText(bandwidth_hz) + " Hz";

@@ -176,8 +176,6 @@ struct SplittingGaps {
 };
 SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs);
 
-// How long a stretch without gaps has to move to have rows, s.
-double ShortestMotion(double bandwidth_hz);
 // Throws InputError where the logs have no rows: nothing to fit or to judge by.
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
                  const LogSet& logs);
