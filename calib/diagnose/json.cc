@@ -91,6 +91,7 @@ json EffectJson(const FoundEffect& found, const GapDiagnosis& diagnosis) {
       {"evidence", EvidenceJson(found.evidence)},
       {"estimates", EstimatesJson(found.estimates, found.stddev)},
       {"equivalent", PlacesJson(found.equivalent)},
+      {"or_at", PlacesJson(found.or_at)},
       {"any_probability", JsonNumber(found.any_probability)},
       {"separate_by", found.separate_by},
       {"removed_percent", JsonNumber(found.removed_percent)},

@@ -49,7 +49,7 @@ struct Named {
     would_show |= found.gain.IsNone();
     names.push_back(diagnosis.has_reference || IsTakenOff(found)
                         ? ChangeOf(found, diagnosis)
-                        : NameOf(*found.effect, found.joint, diagnosis));
+                        : NameOf(found, diagnosis));
     if (IsUntoldByReference(found, diagnosis)) {
       untold.push_back(NameOf(*found.effect, found.joint, diagnosis));
     }
@@ -103,6 +103,23 @@ std::string OneOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
   return "one of " + Enumeration(names);
 }
 
+// What has several names, and how certain the least certain is.
+struct Alike {
+  std::string names;
+  double least = 1;
+};
+
+Alike AlikeOf(const GapDiagnosis& diagnosis) {
+  Alike alike;
+  for (const FoundEffect& found : diagnosis.unnamed) {
+    if (!found.one_of_few) continue;
+    alike.names +=
+        (alike.names.empty() ? "" : ", and ") + OneOf(found, diagnosis);
+    alike.least = std::min(alike.least, found.any_probability);
+  }
+  return alike;
+}
+
 }  // namespace
 
 std::string NamedEffects(const GapDiagnosis& diagnosis) {
@@ -139,19 +156,26 @@ std::string NamedEffects(const GapDiagnosis& diagnosis) {
 }
 
 std::string AlikeEffects(const GapDiagnosis& diagnosis) {
-  std::string names;
-  double least = 1;
-  for (const FoundEffect& found : diagnosis.unnamed) {
-    if (!found.one_of_few) continue;
-    names += (names.empty() ? "" : ", and ") + OneOf(found, diagnosis);
-    least = std::min(least, found.any_probability);
-  }
-  if (names.empty()) return "";
+  const Alike alike = AlikeOf(diagnosis);
+  if (alike.names.empty()) return "";
   if (diagnosis.has_reference) {
-    return Changed(least, diagnosis) + names +
+    return Changed(alike.least, diagnosis) + alike.names +
            "; these data cannot tell which.";
   }
-  return std::string("The model ") + Lacks(least) + " " + names +
+  return std::string("The model ") + Lacks(alike.least) + " " + alike.names +
+         ": these data cannot tell which.";
+}
+
+std::string AlikeBesides(const GapDiagnosis& diagnosis) {
+  const Alike alike = AlikeOf(diagnosis);
+  if (alike.names.empty()) return "";
+  const std::string changed =
+      InWords(alike.least, " has changed", " has probably changed",
+              " may have changed");
+  return " Besides, " +
+         (diagnosis.has_reference
+              ? alike.names + changed
+              : std::string("it ") + Lacks(alike.least) + " " + alike.names) +
          ": these data cannot tell which.";
 }
 

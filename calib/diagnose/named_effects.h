@@ -16,4 +16,7 @@ std::string NamedEffects(const GapDiagnosis& diagnosis);
 // empty where nothing has.
 std::string AlikeEffects(const GapDiagnosis& diagnosis);
 
+// The same beside effects that are named, with a blank before it.
+std::string AlikeBesides(const GapDiagnosis& diagnosis);
+
 }  // namespace armcal

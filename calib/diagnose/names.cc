@@ -52,8 +52,16 @@ std::string NameOf(const Effect& effect, int joint,
   return text;
 }
 
+std::string NameOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  std::string text = NameOf(*found.effect, found.joint, diagnosis);
+  for (const PlacedEffect& other : found.or_at) {
+    text += " or " + NameOf(*other.effect, other.joint, diagnosis);
+  }
+  return text;
+}
+
 std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  const std::string name = NameOf(*found.effect, found.joint, diagnosis);
+  const std::string name = NameOf(found, diagnosis);
   if (!HasDirection(found)) return name;
   const EffectEstimate& size = found.estimates[0];
   if (found.effect->nature != Effect::Nature::kParameter) {

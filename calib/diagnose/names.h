@@ -11,6 +11,10 @@ namespace armcal {
 std::string NameOf(const Effect& effect, int joint,
                    const GapDiagnosis& diagnosis);
 
+// The same of what was found, with the places of a body that may be elsewhere:
+// "added mass on wrist_2 or payload".
+std::string NameOf(const FoundEffect& found, const GapDiagnosis& diagnosis);
+
 // The same of an effect that is a change since a reference, with its direction
 // where the effect has one, which is where it has a single linear parameter of
 // either sign, or is a body that was added or taken off. What adds to a number

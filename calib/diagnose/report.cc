@@ -73,10 +73,14 @@ std::string Others(const FoundEffect& found, const GapDiagnosis& diagnosis) {
     if (other.probability < kWorthSaying) continue;
     const bool is_form_of_it =
         other.joint == found.joint && HasMean(*other.effect, *found.effect);
-    text += Format(is_form_of_it ? "         of these %.0f %% as "
-                                 : "         or %.0f %% ",
-                   100 * other.probability) +
-            NameOf(*other.effect, other.joint, diagnosis) + "\n";
+    // The first words name it as well.
+    const bool is_place_of_it =
+        !found.or_at.empty() && IsCarriedBody(*other.effect);
+    text +=
+        Format(is_form_of_it || is_place_of_it ? "         of these %.0f %% as "
+                                               : "         or %.0f %% ",
+               100 * other.probability) +
+        NameOf(*other.effect, other.joint, diagnosis) + "\n";
   }
   if (!found.separate_by.empty()) {
     text += "         told apart by: " + found.separate_by + "\n";
@@ -114,10 +118,9 @@ std::string Numbers(const std::string& title, const FoundEffect& found) {
 
 std::string EffectLines(const FoundEffect& found,
                         const GapDiagnosis& diagnosis) {
-  std::string text =
-      Numbers(Format("  %3.0f %%  ", 100 * found.probability) +
-                  NameOf(*found.effect, found.joint, diagnosis) + ":",
-              found);
+  std::string text = Numbers(Format("  %3.0f %%  ", 100 * found.probability) +
+                                 NameOf(found, diagnosis) + ":",
+                             found);
   for (const Contact& contact : found.contacts) {
     const JointGap& joint = diagnosis.joints[contact.joint];
     text +=

@@ -201,9 +201,11 @@ std::string BriefVerdict(const GapDiagnosis& diagnosis) {
              "parameters brings it down to " +
              OfNoise(diagnosis.torque.refit) + ".";
     case GapVerdict::kExplained:
-      return NamedEffects(diagnosis) + StillLeft(diagnosis) + ".";
+      return NamedEffects(diagnosis) + StillLeft(diagnosis) + "." +
+             AlikeBesides(diagnosis);
     case GapVerdict::kPartlyExplained:
-      return NamedEffects(diagnosis) + "; something else is left.";
+      return NamedEffects(diagnosis) + "; something else is left." +
+             AlikeBesides(diagnosis);
     case GapVerdict::kUnknown:
       return WithoutName(diagnosis);
     case GapVerdict::kNotTestable:

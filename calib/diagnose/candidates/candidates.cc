@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "calib/diagnose/candidates/proposals.h"
@@ -105,6 +106,33 @@ std::vector<Shape> Shapes(const Effect& effect, const EffectSite& site,
   return happens_once ? AtTimes(effect, proposals, shapes, tried) : shapes;
 }
 
+// Odds of a hypothesis before the data add their logarithm to its log
+// likelihood, of which a score is 2 T times as large, T being the temperature
+// that scores are divided by.
+double PenaltyOfOdds(double odds) {
+  return 2 * Limits().temperature * std::log(odds);
+}
+
+// What is carried is at the tool, which is there for that, or on some other
+// link: one body on a link of n is one hypothesis, as probable before the data
+// as a payload is, and each of these links has an n-th of it. A body on the
+// last joint's axis turns nothing but the joints before it, as one on the link
+// before does: where data cannot tell these two, neither is named alone because
+// there are many links.
+void ShareOddsOfLinks(std::vector<GapCandidate>* candidates) {
+  std::set<int> links;
+  const auto is_on_a_link = [](const GapCandidate& candidate) {
+    return IsCarriedBody(*candidate.effect) && candidate.joint >= 0;
+  };
+  for (const GapCandidate& candidate : *candidates) {
+    if (is_on_a_link(candidate)) links.insert(candidate.joint);
+  }
+  for (GapCandidate& candidate : *candidates) {
+    if (!is_on_a_link(candidate)) continue;
+    candidate.prior_penalty += PenaltyOfOdds(static_cast<double>(links.size()));
+  }
+}
+
 // Bodies, and laws that are no friction (springs and what is like them): less
 // friction is told by that of another day.
 bool MayBeLess(const Effect& effect) {
@@ -150,14 +178,10 @@ void ListShapes(const Effect& effect, const EffectSite& site,
 
 }  // namespace
 
-// Odds of a hypothesis before the data add their logarithm to its log
-// likelihood, of which a score is 2 T times as large, T being the temperature
-// that scores are divided by.
 double PriorPenalty(const Effect& effect, bool since_reference) {
   double penalty = effect.near_zero ? Limits().near_zero_penalty : 0;
   if (since_reference && effect.of_construction) {
-    penalty +=
-        2 * Limits().temperature * std::log(Limits().odds_of_same_construction);
+    penalty += PenaltyOfOdds(Limits().odds_of_same_construction);
   }
   return penalty;
 }
@@ -194,6 +218,7 @@ std::vector<GapCandidate> ListCandidates(
                  since_reference, &candidates);
     }
   }
+  ShareOddsOfLinks(&candidates);
   return candidates;
 }
 

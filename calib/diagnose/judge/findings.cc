@@ -6,6 +6,7 @@
 
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/judge/body_places.h"
 #include "calib/diagnose/judge/changed_together.h"
 #include "calib/diagnose/judge/claims.h"
 #include "calib/diagnose/judge/contact_finding.h"
@@ -210,6 +211,7 @@ GapFindings Findings::List(const std::vector<MissingTerm>& terms) {
   JoinMeans(&result_.effects);
   for (FoundEffect& found : result_.effects) {
     ShareTheRest(&found, &result_.candidates);
+    PoolPlacesOfBody(&found);
   }
   const double extra_variance = ExtraVariance(fit_.noise().source);
   const auto unneeded =

@@ -46,6 +46,9 @@ struct FoundEffect {
   std::vector<PlacedEffect> equivalent;
   // Whether these are few, and one of them is claimed though none is by itself.
   bool one_of_few = false;
+  // Of `equivalent`: where else a body may be whose place these data do not
+  // tell. `probability` is that it is at one of these places.
+  std::vector<PlacedEffect> or_at;
   EffectGain gain;  // given the others of the fit
   // The same over the held-out gap, with its interval; NaN: not known.
   double removed_percent = NAN;

@@ -41,7 +41,7 @@ Effect Cable() {
         },
         robot);
   };
-  effect.means = {"torque_offset"};
+  effect.means = {"torque_offset", "spring"};  // near its centre
   effect.stand_ins = {JointTerm::kOffset};
   effect.set_drive = [](const EffectNumbers& numbers, JointDrive* drive) {
     drive->bounded_springs.push_back(TanhSpring(NumberOf(numbers, "cable"),

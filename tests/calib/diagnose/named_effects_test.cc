@@ -59,6 +59,29 @@ TEST(NamedEffects, SaysWhereAReferenceDoesNotTellWhetherItHadALaw) {
   EXPECT_THAT(BriefReport(diagnosis), testing::EndsWith("on held-out data."));
 }
 
+// What is one of two is there beside what is named.
+TEST(AlikeBesides, StandsBehindWhatIsNamed) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.unnamed = {MakeFound("torque_gain", 1)};
+  const std::string named = BriefReport(diagnosis);
+  diagnosis.unnamed[0].one_of_few = true;
+  diagnosis.unnamed[0].any_probability = .7;
+  diagnosis.unnamed[0].equivalent = {{FindEffect("spring"), 1, .2}};
+  EXPECT_EQ(BriefReport(diagnosis),
+            named +
+                " Besides, it probably lacks one of torque gain on elbow "
+                "and spring on elbow: these data cannot tell which.");
+  diagnosis.has_reference = true;
+  diagnosis.unnamed[0].any_probability = .9;
+  EXPECT_THAT(BriefReport(diagnosis),
+              testing::EndsWith(" Besides, one of torque gain on elbow and "
+                                "spring on elbow has changed: these data "
+                                "cannot tell which."));
+  diagnosis.verdict = GapVerdict::kPartlyExplained;
+  EXPECT_THAT(BriefReport(diagnosis),
+              HasSubstr("; something else is left. Besides, one of torque "));
+}
+
 TEST(NamedEffects, TellsTouchesAsSurelyAsTheyAreKnown) {
   GapDiagnosis diagnosis = SampleDiagnosis();
   diagnosis.effects = {MakeTouched()};

@@ -41,6 +41,16 @@ TEST(ChangeOf, TellsInWordsWhichWayADelayGoes) {
             "delay (motors give the commanded torque late by 0.0021 s)");
 }
 
+// A mass on the last joint's axis is the same on the link before it.
+TEST(NameOf, TellsWhereABodyMayBe) {
+  FoundEffect found = MakeFound("added_mass", 1);
+  EXPECT_EQ(NameOf(found, SampleDiagnosis()), "added mass on elbow");
+  found.or_at = {{FindEffect("payload"), -1, .4},
+                 {FindEffect("added_mass"), 0, .1}};
+  EXPECT_EQ(NameOf(found, SampleDiagnosis()),
+            "added mass on elbow or payload or added mass on shoulder");
+}
+
 // A body was added or taken off where its mass is known to that much; joints
 // may tell its moment alone.
 TEST(ChangeOf, TellsBodiesWithTheirMass) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "calib/diagnose/candidates/candidate_torques.h"
@@ -73,6 +74,40 @@ TEST(PriorPenalty, KnowsWhatAnArmIsBuiltOf) {
   }
   EXPECT_THAT(built,
               UnorderedElementsAre("link_length", "link_inertia", "armature"));
+}
+
+// A link of n has an n-th of the odds of a body at the
+// tool; one on the last link is that. In the units of the test above.
+TEST(ListCandidates, LinksShareTheOddsOfABody) {
+  const EffectArm arm("UR5 6R", 20, .01);
+  const int n = arm.robot.num_joints();
+  const GapBaseline baseline(arm.robot, {}, Eigen::VectorXd::Constant(n, 10));
+  const std::vector<GapSegment> segments = {
+      MakeSegment(arm.motion, arm.Recorded().nominal())};
+  GapRows rows(segments, 6);
+  rows.SetNoise(std::vector<Autoregression>(n),
+                Eigen::MatrixXd::Zero(rows.num_thin(), n));
+  std::vector<std::string> others;
+  for (const Effect& effect : Effects()) {
+    if (!IsCarriedBody(effect)) others.push_back(effect.name);
+  }
+  int links = 0, tools = 0;
+  for (const bool since_reference : {false, true}) {
+    const std::vector<GapCandidate> bodies = ListCandidates(
+        baseline, rows, arm.scale, Eigen::MatrixXd::Zero(rows.num_thin(), n),
+        others, since_reference);
+    const auto on_links = static_cast<double>(
+        std::count_if(bodies.begin(), bodies.end(),
+                      [](const auto& b) { return b.joint >= 0; }));
+    for (const GapCandidate& body : bodies) {
+      const bool is_on_a_link = body.joint >= 0;
+      (is_on_a_link ? links : tools) += 1;
+      EXPECT_NEAR(body.prior_penalty,
+                  is_on_a_link ? 2 * 4 * std::log(on_links) : 0, 1e-12);
+    }
+  }
+  EXPECT_GE(links, 4);
+  EXPECT_EQ(tools, 2);
 }
 
 // From all over the range.
