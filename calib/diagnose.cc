@@ -362,7 +362,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   if (!options.controller.empty()) {
     ReconstructTorques(robot, options.controller, all, &reading);
   }
-  if (!clocks.empty()) LeaveOutLaws(&fit);
+  if (AreLawsInDoubt(clocks)) LeaveOutLaws(&fit);
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
   tbb::task_group looking;

@@ -10,6 +10,32 @@
 #include "model/log_files/log_reader.h"
 
 namespace armcal {
+namespace {
+
+DataFinding FindingOf(const std::string& log, const SampleClock& clock,
+                      bool is_mended) {
+  DataFinding finding;
+  finding.finding = "of " + log + " ";
+  if (clock.jitters) {
+    finding.finding += JitterSentence(clock);
+    finding.evidence = JitterEvidence(clock);
+    finding.flag = is_mended ? "what follows is of the time that the joints "
+                               "tell; log each sample's own time"
+                             : "log each sample's own time";
+    return finding;
+  }
+  finding.leads = true;
+  finding.finding += ClockSentence(clock);
+  finding.evidence = ClockEvidence(clock);
+  finding.flag =
+      is_mended
+          ? "what follows is of the time that the joints tell, and tells no "
+            "law beyond joint terms, loads and errors of the recording"
+          : "log each sample's own time: nothing below is to be trusted";
+  return finding;
+}
+
+}  // namespace
 
 std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
                                    LogReaderOptions* reading) {
@@ -24,27 +50,22 @@ std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
     Log log, more;
     reader.Read(kMostRows, &log);
     SampleClock clock = EstimateSampleClock(log);
-    if (!clock.wrong()) continue;
-    DataFinding finding;
-    finding.leads = true;
-    finding.finding = "of " + source.name + " " + ClockSentence(clock);
-    finding.evidence = ClockEvidence(clock);
-    if (reader.Read(1, &more)) {
-      finding.flag =
-          "log each sample's own time: nothing below is to be "
-          "trusted";
-    } else {
-      finding.flag =
-          "what follows is of the time that the joints tell, and tells no law "
-          "beyond joint terms, loads and errors of the recording";
-      reading->sample_times[source.name] =
-          std::make_shared<const Eigen::VectorXd>(std::move(clock.t));
-    }
-    wrong.push_back({source.name, std::move(finding), 1 / clock.rate - 1,
+    if (!clock.wrong() && !clock.jitters) continue;
+    const bool is_mended = reader.Read(1, &more) == 0;
+    wrong.push_back({source.name, FindingOf(source.name, clock, is_mended),
+                     1 / clock.rate - 1,
                      clock.period_stddev / clock.period / clock.rate,
-                     clock.wrong_rate});
+                     clock.wrong_rate, clock.jitters});
+    if (!is_mended) continue;
+    reading->sample_times[source.name] =
+        std::make_shared<const Eigen::VectorXd>(std::move(clock.t));
   }
   return wrong;
+}
+
+bool AreLawsInDoubt(const std::vector<WrongClock>& clocks) {
+  return std::any_of(clocks.begin(), clocks.end(),
+                     [](const WrongClock& clock) { return !clock.jitters; });
 }
 
 // Beyond five deviations, as SampleClock has it: what is left is that all

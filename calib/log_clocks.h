@@ -20,6 +20,9 @@ struct WrongClock {
   double rate = 0;
   double rate_stddev = 0;
   bool wrong_rate = false;  // SampleClock's; else stamps are uneven alone
+  // Its stamps jitter about a time that is right, which the joints tell to less
+  // than that: no reason to doubt anything.
+  bool jitters = false;
 };
 
 // Of those logs whose clock is wrong. They are read with the time that their
@@ -27,6 +30,9 @@ struct WrongClock {
 // more than 2^20 rows.
 std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
                                    LogReaderOptions* reading);
+
+// Whether the time of one of these is an estimate that laws may be wrong by.
+bool AreLawsInDoubt(const std::vector<WrongClock>& clocks);
 
 // The first of these logs' clocks that runs at another rate as an effect
 // (ClockEffect); none where all run at theirs. Of motion in the mended time

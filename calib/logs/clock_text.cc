@@ -25,4 +25,16 @@ std::string ClockEvidence(const SampleClock& clock) {
   return text;
 }
 
+std::string JitterSentence(const SampleClock& clock) {
+  return Format("the stamps jitter: steps are %.2g ms off in the rms",
+                1e3 * clock.jitter);
+}
+
+std::string JitterEvidence(const SampleClock& clock) {
+  return Format(
+      "positions and velocities of two groups of joints tell so of each step "
+      "alike (correlation %.2f)",
+      clock.step_correlation);
+}
+
 }  // namespace armcal

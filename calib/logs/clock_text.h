@@ -13,4 +13,8 @@ std::string ClockSentence(const SampleClock& clock);
 // By what figures that is told.
 std::string ClockEvidence(const SampleClock& clock);
 
+// The same of stamps that jitter about a clock that is right.
+std::string JitterSentence(const SampleClock& clock);
+std::string JitterEvidence(const SampleClock& clock);
+
 }  // namespace armcal

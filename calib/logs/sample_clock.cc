@@ -77,7 +77,8 @@ class ClockEstimate {
     if (!MakeGroups()) return clock_;
     MakeWindows();
     Judge();
-    if (clock_.wrong()) Rebuild();
+    if (clock_.wrong() || clock_.jitters) Rebuild();
+    if (clock_.jitters) clock_.t /= clock_.rate;
     return clock_;
   }
 
@@ -201,6 +202,19 @@ class ClockEstimate {
     clock_.uneven = clock_.wander > kLeastRate && clock_.correlation > 0 &&
                     clock_.correlation * clock_.correlation > kExplained;
     if (!clock_.uneven && !JointsAgree(off)) clock_.wrong_rate = false;
+    JudgeSteps();
+  }
+
+  void JudgeSteps() {
+    const auto deviations = StepDeviations();
+    const double shared = Covariance(deviations[0], deviations[1]);
+    const double all = Covariance(deviations[0], deviations[0]) *
+                       Covariance(deviations[1], deviations[1]);
+    clock_.jitter = std::sqrt(std::max(0., shared));
+    clock_.step_correlation = shared / std::sqrt(all + 1e-300);
+    clock_.jitters =
+        !clock_.wrong() && shared > 0 &&
+        clock_.step_correlation * clock_.step_correlation > kExplained;
   }
 
   // Whether each joint that knows its own gain well has the rate's: of an even
@@ -218,9 +232,10 @@ class ClockEstimate {
     return true;
   }
 
-  // The variance of steps beside the mean rate that both groups share.
-  double StepVariance() const {
-    std::vector<double> deviations[2];
+  // What each group finds single steps to differ from the stamps' by, s, beside
+  // the mean rate.
+  std::array<std::vector<double>, 2> StepDeviations() const {
+    std::array<std::vector<double>, 2> deviations;
     for (const Window& w : windows_) {
       for (Eigen::Index k = w.begin; w.tells && k < w.end; ++k) {
         const TimeSums sums[2] = {Sums(groups_[0], k), Sums(groups_[1], k)};
@@ -230,15 +245,15 @@ class ClockEstimate {
         }
       }
     }
-    return std::max(0., Covariance(deviations[0], deviations[1]));
+    return deviations;
   }
 
   // Each step is what the joints say, drawn to its window's rate as far as they
-  // do not know it: the best linear estimate for steps that vary by
-  // StepVariance. The noise of a position enters the two steps beside it with
+  // do not know it: the best linear estimate for steps that vary by what both
+  // groups share. The noise of a position enters the two steps beside it with
   // opposite signs and goes out of the sum, so that time does not drift.
   void Rebuild() {
-    const double vary = StepVariance();
+    const double vary = clock_.jitter * clock_.jitter;
     clock_.t = VectorXd::Zero(size_ + 1);
     size_t w = 0;
     for (Eigen::Index k = 0; k < size_; ++k) {

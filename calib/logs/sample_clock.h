@@ -25,7 +25,15 @@ struct SampleClock {
   long skipped = 0;        // steps of one and a half mean steps and more
   bool wrong_rate = false;  // by more than 1 %
   bool uneven = false;      // rows are not when stamps say, by more than 1 %
-  // The time of each row, s since the first; empty unless the clock is wrong.
+  // rms of what single steps differ from the stamps' by, s, as both groups say
+  // alike, and their correlation over the steps.
+  double jitter = 0, step_correlation = 0;
+  // Of a clock that is not wrong: time explains more than half of what the
+  // groups' steps differ from the stamps' by. Stamps jitter about the rows'
+  // time, which the joints tell better.
+  bool jitters = false;
+  // The time of each row, s since the first; empty unless the clock is wrong or
+  // jitters. The mean step of one that jitters is the stamps'.
   Eigen::VectorXd t;
 
   bool wrong() const { return wrong_rate || uneven; }
