@@ -61,12 +61,16 @@ VelocityLaw FitLaw(const VectorXd& dt, const VectorXd& v, const VectorXd& dq,
   const Eigen::Index size = v.size();
   MatrixXd columns = MatrixXd::Zero(size, 3);
   columns.col(0) = v.cwiseProduct(dt);
-  // Central differences of v over the steps beside: a dt and j dt.
+  // Central differences of v over the steps beside: a dt and j dt. The latter
+  // goes as v itself where the motion is a sine's, and is over the usual step:
+  // over the step's own it would undo the errors of that in v dt.
+  const double usual =
+      Quantile(std::vector<double>(dt.data(), dt.data() + size), .5);
   for (Eigen::Index k = 1; k + 1 < size; ++k) {
     const double around = .5 * (dt[k - 1] + dt[k + 1]) + dt[k];
-    if (!(around > 0) || !(dt[k] > 0)) continue;
+    if (!(around > 0) || !(dt[k] > 0) || !(usual > 0)) continue;
     columns(k, 1) = (v[k + 1] - v[k - 1]) * dt[k] / around;
-    columns(k, 2) = (v[k + 1] - 2 * v[k] + v[k - 1]) / dt[k];
+    columns(k, 2) = (v[k + 1] - 2 * v[k] + v[k - 1]) * dt[k] / (usual * usual);
   }
   for (const Eigen::Index k : without) columns.row(k).setZero();
   VelocityLaw law;

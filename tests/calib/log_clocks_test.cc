@@ -41,6 +41,23 @@ TEST_F(LogClocks, OfAnotherRateIsATimeBase) {
   EXPECT_NEAR(effect->estimates[0].value, 1 / 1.03 - 1, 4 * effect->stddev[0]);
 }
 
+// Stamps that jitter are mended, and are no reason to doubt laws.
+TEST_F(LogClocks, OfStampsThatJitterLawsAreLookedFor) {
+  Log log = InspectedArm().log;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> off(-1e-3, 1e-3);
+  for (double& t : log.t) t += off(random);
+  const LogSource jitters("jitters", log);
+  std::vector<WrongClock> clocks = MendClocks({jitters}, &reading_);
+  ASSERT_EQ(clocks.size(), 1);
+  EXPECT_FALSE(clocks[0].finding.leads);
+  EXPECT_EQ(reading_.sample_times.count("jitters"), 1);
+  EXPECT_FALSE(AreLawsInDoubt(clocks));
+  EXPECT_FALSE(FoundClock(clocks, {jitters}));
+  clocks = MendClocks({jitters, slow_}, &reading_);
+  EXPECT_TRUE(AreLawsInDoubt(clocks));
+}
+
 // A reference's clock is no effect of the log that is diagnosed, nor are stamps
 // that are uneven at the right rate.
 TEST_F(LogClocks, OfOtherLogsOrAtTheRightRateIsNone) {

@@ -87,6 +87,35 @@ TEST_F(SampleClockTest, HolesThatStampsHideAreFoundAndMended) {
   EXPECT_LT((clock.t - truth).cwiseAbs().maxCoeff(), 1e-3 * truth.maxCoeff());
 }
 
+// Stamps that are up to 1 ms off, each by itself, of rows that were taken every
+// 10 ms: the mean is right, and each step is known to a fifth of that.
+TEST_F(SampleClockTest, StampsThatJitterAreToldFromTheJoints) {
+  const VectorXd truth = log_.t;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> off(-1e-3, 1e-3);
+  for (double& t : log_.t) t += off(random);
+  const SampleClock clock = EstimateSampleClock(log_);
+  EXPECT_FALSE(clock.wrong());
+  EXPECT_TRUE(clock.jitters);
+  // A step has the errors of two stamps, each of 1 ms / sqrt(3) in the rms.
+  EXPECT_NEAR(clock.jitter, 1e-3 * std::sqrt(2. / 3), 5e-5);
+  ASSERT_EQ(clock.t.size(), truth.size());
+  const auto rms_of_steps = [&](const VectorXd& t) {
+    const VectorXd error = t - truth;
+    const Eigen::Index steps = error.size() - 1;
+    return std::sqrt((error.tail(steps) - error.head(steps)).squaredNorm() /
+                     static_cast<double>(steps));
+  };
+  EXPECT_LT(rms_of_steps(clock.t), .2 * rms_of_steps(log_.t));
+  EXPECT_LT((clock.t - truth).cwiseAbs().maxCoeff(), .02);
+}
+
+TEST_F(SampleClockTest, EvenStampsDoNotJitter) {
+  const SampleClock clock = EstimateSampleClock(log_);
+  EXPECT_FALSE(clock.jitters);
+  EXPECT_LT(clock.step_correlation, .5);
+}
+
 // The row before is repeated: it adds no time.
 TEST_F(SampleClockTest, RepeatedRowsAreOfTheTimeBefore) {
   const VectorXd stamps = log_.t;
