@@ -53,8 +53,10 @@ std::vector<std::string> MakeLinksPossible(Robot* robot) {
 
 Robot VaryRobot(const Robot& robot, double share, uint64_t seed) {
   std::mt19937_64 random = RandomStream(seed, 0, RandomPurpose::kRobot);
-  std::normal_distribution<double> normal(0, share);
-  const auto factor = [&] { return std::exp(normal(random)); };
+  // Scaled, since a normal_distribution of no deviation is not defined.
+  std::normal_distribution<double> normal;
+  const auto error = [&] { return share * normal(random); };
+  const auto factor = [&] { return std::exp(error()); };
   Robot varied = robot;
   MakeLinksPossible(&varied);
   for (Link& link : varied.links) {
@@ -62,7 +64,7 @@ Robot VaryRobot(const Robot& robot, double share, uint64_t seed) {
     // body far from its link's origin is not moved far.
     Eigen::Matrix4d A = Eigen::Matrix4d::Identity();
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) A(i, j) += normal(random) / 2;
+      for (int j = 0; j < 3; ++j) A(i, j) += error() / 2;
     }
     const double mass_factor = factor();
     const double lever_factor = factor();
