@@ -42,9 +42,6 @@ MatrixXd MovingMean(const MatrixXd& x, int size) {
   return mean;
 }
 
-// Where a joint may be breaking away: from when it rests last to this long
-// after, the sign of the velocity it then has (rows x n); 0 elsewhere.
-
 // Where a joint may be breaking away: from when it rests last to
 // rows_of_breakaway samples after, the sign of the velocity it then has; 0
 // elsewhere (rows x n).

@@ -186,13 +186,14 @@ MatrixXd White(int samples, const VectorXd& stddev, std::mt19937_64* random) {
 // grid. The first kSettled values settle the filter from zero.
 VectorXd Coloured(const Autoregression& noise, double step, int samples,
                   double dt, std::mt19937_64* random) {
-  std::normal_distribution<double> normal(0, noise.sigma);
+  std::normal_distribution<double> normal;
   constexpr int kSettled = 200;
   constexpr int p = Autoregression::kOrder;
   const int size = kSettled + static_cast<int>(samples * dt / step) + 3;
   VectorXd x = VectorXd::Zero(size);
   for (int t = p; t < size; ++t) {
-    x[t] = normal(*random) + noise.a.dot(x.segment<p>(t - p).reverse());
+    x[t] = noise.sigma * normal(*random) +
+           noise.a.dot(x.segment<p>(t - p).reverse());
   }
   VectorXd fine(samples);
   for (int k = 0; k < samples; ++k) {
