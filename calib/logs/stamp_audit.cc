@@ -7,6 +7,7 @@
 #include "calib/logs/stamp_hole.h"
 #include "calib/numerics/median.h"
 #include "model/text/format.h"
+#include "model/text/input_text.h"
 
 namespace armcal {
 namespace {
@@ -66,6 +67,15 @@ double TimeUnitOf(double step) {
 
 const char* TimeUnitName(double unit) {
   return unit == 1 ? "s" : unit == 1e-3 ? "ms" : unit > 5e-7 ? "us" : "ns";
+}
+
+InputError WrongTimeUnit(const std::string& path, double step) {
+  const std::string name = TimeUnitName(TimeUnitOf(step));
+  return InputError(
+      path, "", "",
+      "the time is in " + name + ", not in s: its step is " + NumberText(step) +
+          " as logged, and no arm is sampled every " + NumberText(step) +
+          " s, expected a column t[" + name + "]");
 }
 
 StampFigures AuditStamps(const Log& log) {
