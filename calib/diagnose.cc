@@ -70,12 +70,7 @@ void CheckTimeUnits(const std::vector<const LogSet*>& sets) {
     }
   }
   if (units.size() < 2) return;
-  const std::string name = TimeUnitName(TimeUnitOf(slowest));
-  throw InputError(
-      *path, "", "",
-      "the time is in " + name + ", not in s: its step is " +
-          NumberText(slowest) + " as logged, and no arm is sampled every " +
-          NumberText(slowest) + " s, expected a column t[" + name + "]");
+  throw WrongTimeUnit(*path, slowest);
 }
 
 // A calibration's own logs, beside which no reference is given.

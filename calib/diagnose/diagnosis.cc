@@ -43,7 +43,7 @@ class Diagnoser {
     std::vector<GapSegment> segments =
         ReadSegments(bandwidth_hz_, options_.progress, logs);
     if (must_move || segments.empty())
-      CheckMotion(segments, bandwidth_hz_, logs);
+      CheckMotion(segments, bandwidth_hz_, logs, sets_bandwidth_);
     SetUsualTemperature(&usual_temperature_, &segments);
     AdvanceTorque(delay_, &segments);
     return segments;
@@ -82,6 +82,7 @@ class Diagnoser {
   const Robot& robot_;
   const DiagnosisOptions& options_;
   const double bandwidth_hz_;
+  const LogSet* sets_bandwidth_ = nullptr;  // null: an option
   double posterior_deviations_ = 1;
   double delay_ = 0;            // of recorded torque, s, that was undone
   VectorXd usual_temperature_;  // deg C
@@ -180,6 +181,7 @@ void Diagnoser::ForgetOtherFriction(MissingTerms* missing,
 GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
                             const LogSet* reference) {
   const bool split = validation == nullptr;
+  if (!options_.bandwidth_hz) sets_bandwidth_ = &training;
   // What touches an arm that rests, a reference tells.
   std::vector<GapSegment> segments = Read(training, reference == nullptr);
   std::vector<GapSegment> before;

@@ -26,13 +26,14 @@ bool AnyZeroMoved(const GapDiagnosis& diagnosis) {
                      IsMovedZero);
 }
 
-// "elbow.viscous -20 %"; a zero has no size of which that could be a share, and
-// of what was nothing before, a share says nothing.
+// "elbow.viscous -20 %"; a zero has no size of which that could be a share. Of
+// what was nothing before a share says nothing, and of friction below zero, as
+// a reference may have it where other laws share its joint, it has the wrong
+// sign.
 std::string Change(const MovedParameter& moved, bool is_zero) {
   constexpr double kOfNothing = 10;
   const double change = moved.value - moved.nominal;
-  const bool was_nothing =
-      std::abs(change) > kOfNothing * std::abs(moved.nominal);
+  const bool was_nothing = std::abs(change) > kOfNothing * moved.nominal;
   return moved.name + (is_zero || was_nothing
                            ? Format(" %+.2g %s", change, moved.unit.c_str())
                            : Format(" %+.0f %%", 100 * change / moved.nominal));

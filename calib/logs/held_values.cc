@@ -13,6 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Eigen::Index kReach = 4;  // rows to both sides of a step
+// Repeats of a value that a slower controller holds: a loop of 40 Hz in a log
+// of 1 kHz.
+constexpr long kLongestHold = 25;
 // Of the steps of what is not at rest. A rounded value with noise of s of its
 // quanta repeats itself in 1 / (2 s sqrt(pi)) of the steps, and the changes
 // after a repeat are half a normal distribution, whose tenths differ by
@@ -38,13 +41,20 @@ std::vector<bool> Repeats(const MatrixXd& x) {
   return repeats;
 }
 
-// The share of rows that repeat the one before; those that do so in a run of
-// twice kReach are at rest, or stuck.
-double ShareOf(const std::vector<bool>& repeats) {
+// The share of rows that repeat the one before. Those that do so in a run of
+// twice kReach are at rest, or stuck, unless the position of their joint, if it
+// is given, goes on meanwhile; what repeats longer than kLongestHold is stuck.
+double ShareOf(const std::vector<bool>& repeats,
+               const VectorXd& position = VectorXd()) {
   long steps = 0, held = 0, run = 0;
-  const auto end_run = [&] {
-    if (run < 2 * kReach) held += run;
-    if (run < 2 * kReach) steps += run;
+  const auto end_run = [&](size_t end) {
+    const auto last = static_cast<Eigen::Index>(end) - 1;
+    const bool goes_on = run <= kLongestHold && position.size() > 0 &&
+                         position[last] != position[last - run];
+    if (run < 2 * kReach || goes_on) {
+      held += run;
+      steps += run;
+    }
     run = 0;
   };
   for (size_t k = 1; k < repeats.size(); ++k) {
@@ -52,10 +62,10 @@ double ShareOf(const std::vector<bool>& repeats) {
       ++run;
       continue;
     }
-    end_run();
+    end_run(k);
     ++steps;
   }
-  end_run();
+  end_run(repeats.size());
   return static_cast<double>(held) / static_cast<double>(std::max(1L, steps));
 }
 
@@ -101,7 +111,9 @@ std::vector<InspectionFinding> AuditHeldValues(const Robot& robot,
     if (x == &log.qd) continue;  // made of rounded positions, or not used
     for (Eigen::Index j = 0; j < x->cols(); ++j) {
       const std::vector<bool> repeats = Repeats(x->col(j));
-      const double share = ShareOf(repeats);
+      const double share = x == &log.tau && log.q.cols() > j
+                               ? ShareOf(repeats, log.q.col(j))
+                               : ShareOf(repeats);
       if (share < kHeldShare || !GoesOn(x->col(j), repeats)) continue;
       findings.push_back(
           {"held",

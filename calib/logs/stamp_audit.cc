@@ -7,6 +7,7 @@
 #include "calib/logs/stamp_hole.h"
 #include "calib/numerics/median.h"
 #include "model/text/format.h"
+#include "model/text/input_text.h"
 
 namespace armcal {
 namespace {
@@ -32,6 +33,31 @@ std::vector<int> RunsOfOneTime(const std::vector<double>& steps) {
     k = end + 1;
   }
   return runs;
+}
+
+// The share of samples that are lost where steps are whole multiples of a
+// period. Rows that are lost make steps of two and three periods and nothing
+// in between; stamps that jitter make all of these, and those in between as
+// often. So where the steps that are no whole multiple are as many as those
+// that would have lost a row, none is.
+double LostShare(const std::vector<double>& steps, double period) {
+  constexpr double kNear = .25;  // of a period
+  constexpr long kMost = 100;    // periods, beyond which it is a hole
+  long periods = 0, lost = 0, with_losses = 0, between = 0;
+  for (const double step : steps) {
+    const double ratio = step / period;
+    const long whole = std::max(1L, std::lround(ratio));
+    if (whole > kMost) continue;
+    if (std::abs(ratio - static_cast<double>(whole)) > kNear) {
+      ++between;
+      continue;
+    }
+    periods += whole;
+    lost += whole - 1;
+    if (whole > 1) ++with_losses;
+  }
+  if (periods == 0 || between >= with_losses) return 0;
+  return static_cast<double>(lost) / static_cast<double>(periods);
 }
 
 // Stamps that are rounded repeat alike all along the log, and coarse_stamps
@@ -68,6 +94,15 @@ const char* TimeUnitName(double unit) {
   return unit == 1 ? "s" : unit == 1e-3 ? "ms" : unit > 5e-7 ? "us" : "ns";
 }
 
+InputError WrongTimeUnit(const std::string& path, double step) {
+  const std::string name = TimeUnitName(TimeUnitOf(step));
+  return InputError(
+      path, "", "",
+      "the time is in " + name + ", not in s: its step is " + NumberText(step) +
+          " as logged, and no arm is sampled every " + NumberText(step) +
+          " s, expected a column t[" + name + "]");
+}
+
 StampFigures AuditStamps(const Log& log) {
   StampFigures figures;
   std::vector<double> steps = Steps(log);
@@ -90,20 +125,7 @@ StampFigures AuditStamps(const Log& log) {
   figures.mean_step = between / static_cast<double>(std::max(
                                     1L, static_cast<long>(steps.size()) -
                                             static_cast<long>(figures.holes)));
-  long periods = 0, lost = 0;
-  for (const double step : steps) {
-    const double ratio = step / figures.step;
-    const long whole = std::max(1L, std::lround(ratio));
-    if (whole > 100 || std::abs(ratio - static_cast<double>(whole)) > .25) {
-      continue;
-    }
-    periods += whole;
-    lost += whole - 1;
-  }
-  if (periods > 0) {
-    figures.lost_share =
-        static_cast<double>(lost) / static_cast<double>(periods);
-  }
+  figures.lost_share = LostShare(steps, figures.step);
   figures.step *= figures.unit;
   for (size_t k = 0; k < runs.size(); ++k) {
     if (!IsHole(runs[k] * figures.step, figures.step)) continue;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calib/logs/inspection_finding.h"
 #include "model/log_files/log.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 
@@ -11,6 +13,9 @@ namespace armcal {
 // 1e-3, 1e-6, 1e-9 where no arm is logged that slowly. And what that is called.
 double TimeUnitOf(double step);
 const char* TimeUnitName(double unit);
+// Of a log whose steps, as logged, no arm has in seconds: what unit they are
+// in.
+InputError WrongTimeUnit(const std::string& path, double step);
 
 // What the stamps of a log are like.
 struct StampFigures {

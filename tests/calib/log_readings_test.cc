@@ -133,6 +133,51 @@ TEST_F(LogReadingsTest, TimeInAnotherUnitThanTheReferencesIsRefused) {
   }
 }
 
+// These rows of a log without velocities.
+Log RowsOf(const Log& log, const std::vector<int>& rows) {
+  Log some;
+  some.t = log.t(rows);
+  some.q = log.q(rows, Eigen::all);
+  some.tau = log.tau(rows, Eigen::all);
+  return some;
+}
+
+// `count` of them, each `stride`-th.
+std::vector<int> EachRow(int stride, int count) {
+  std::vector<int> rows(count);
+  for (int k = 0; k < count; ++k) rows[k] = stride * k;
+  return rows;
+}
+
+// Its bandwidth is a thousandth of what it would be, which leaves no motion.
+TEST_F(LogReadingsTest, ALogByItselfWhoseTimeIsInMilliseconds) {
+  Log slow = RowsOf(arm_.log, EachRow(1, 80));
+  slow.t *= 1000;
+  try {
+    Diagnosis(slow, nullptr);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("the time is in ms, not in s"));
+    EXPECT_THAT(error.what(), Not(HasSubstr("bandwidth")));
+  }
+}
+
+// A log of 20 Hz leaves 2.5 Hz to itself and to its reference, whose 4 s would
+// do at 10 Hz.
+TEST_F(LogReadingsTest, TheLogThatLeavesTooLittleBandwidthIsNamed) {
+  const Log slow =
+      RowsOf(arm_.log, EachRow(5, static_cast<int>(arm_.log.size()) / 5));
+  const Log reference = RowsOf(arm_.log, EachRow(1, 400));
+  try {
+    Diagnosis(slow, &reference);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("log.csv: no motion is left of reference.csv at the "
+                          "2.5 Hz that this log's rate allows"));
+  }
+}
+
 // Two rows of 29 are lost: 20 s of motion, and no 2 s without a gap.
 TEST_F(LogReadingsTest, GapsAreNamedWhereTheyLeaveNothing) {
   std::vector<int> rows;

@@ -177,7 +177,9 @@ struct SplittingGaps {
 SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs);
 
 // Throws InputError where the logs have no rows: nothing to fit or to judge by.
+// `sets_bandwidth`: other logs, whose rate the bandwidth was told by; null:
+// none.
 void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 const LogSet& logs);
+                 const LogSet& logs, const LogSet* sets_bandwidth = nullptr);
 
 }  // namespace armcal

@@ -3,20 +3,43 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "calib/diagnose/data/thresholds.h"
 
 namespace armcal {
 
-// Every effect at every place that could stand where the k-th does, with its
-// best score over all shapes, as a softmax
+// The softmax
 //   P_i = exp((s_i - s_max) / (2 T)) / sum.
 // Scores are on the scale of chi squared and T divides them, since neither
 // noise nor catalogue nor the form of a law is as they assume: with T = 1 they
 // would be posterior odds and far too certain (a tempered likelihood, Holmes
-// and Walker 2017). Where the shape of the chosen one was fitted, the others
-// get the same gain, unless they were fitted too; a rival that no real arm can
-// have is out.
+// and Walker 2017). One score that is not finite would leave no probability
+// that is.
+std::vector<PlacedEffect> ByScore(std::vector<PlacedEffect> all) {
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const PlacedEffect& effect) {
+                             return !std::isfinite(effect.score);
+                           }),
+            all.end());
+  std::sort(all.begin(), all.end(),
+            [](const PlacedEffect& a, const PlacedEffect& b) {
+              return a.score > b.score;
+            });
+  double sum = 0;
+  for (PlacedEffect& effect : all) {
+    effect.probability =
+        std::exp((effect.score - all[0].score) / (2 * Limits().temperature));
+    sum += effect.probability;
+  }
+  for (PlacedEffect& effect : all) effect.probability /= sum;
+  return all;
+}
+
+// Every effect at every place that could stand where the k-th does, with its
+// best score over all shapes. Where the shape of the chosen one was fitted, the
+// others get the same gain, unless they were fitted too; a rival that no real
+// arm can have is out.
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   const std::vector<GapCandidate>& candidates = fit.candidates();
   const GapCandidate& chosen = candidates[fit.selection().chosen[k]];
@@ -36,7 +59,7 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   if (!fit.rivals(k).empty()) {
     double grid = 0, fitted = -1e300;
     for (const RefinedScore& rival : fit.rivals(k)) {
-      if (rival.score <= fitted) continue;
+      if (!std::isfinite(rival.score) || rival.score <= fitted) continue;
       fitted = rival.score;
       grid = best[{rival.effect, rival.joint}];
     }
@@ -53,18 +76,7 @@ std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k) {
   for (const auto& [place, score] : best) {
     all.push_back({place.first, place.second, 0, score});
   }
-  std::sort(all.begin(), all.end(),
-            [](const PlacedEffect& a, const PlacedEffect& b) {
-              return a.score > b.score;
-            });
-  double sum = 0;
-  for (PlacedEffect& effect : all) {
-    effect.probability =
-        std::exp((effect.score - all[0].score) / (2 * Limits().temperature));
-    sum += effect.probability;
-  }
-  for (PlacedEffect& effect : all) effect.probability /= sum;
-  return all;
+  return ByScore(std::move(all));
 }
 
 // A p-value is no probability of the hypothesis. For p below 1/e the odds

@@ -17,10 +17,14 @@ struct PlacedEffect {
   double score = 0;
 };
 
+// The most probable first, with their probabilities by their scores: P ~
+// exp(score / (2 temperature)). Those without a finite score are left out: the
+// torque of such an effect has no finite fit.
+std::vector<PlacedEffect> ByScore(std::vector<PlacedEffect> all);
+
 // The effects that could stand in place of the k-th that was chosen, the most
-// probable first, as scores over the temperature say: P ~ exp(score / (2
-// temperature)). Scores of those whose shapes were fitted are set against each
-// other as such, those of the others are of their grids.
+// probable first (ByScore). Scores of those whose shapes were fitted are set
+// against each other as such, those of the others are of their grids.
 std::vector<PlacedEffect> Alternatives(const GapFit& fit, size_t k);
 
 // That something is there without which what was seen has this chance: the odds

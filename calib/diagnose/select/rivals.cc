@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "calib/diagnose/candidates/coordinates.h"
@@ -90,7 +91,9 @@ void LeaveOutErrorsOfForm(double share, std::vector<FittedRival>* rivals) {
 // rival and columns by themselves; what they lose by that is no rival's
 // (LostByLaws), whose scores stand beside those of candidates that were not
 // fitted. A rival whose estimates no real arm can have (Effect::plausible)
-// stands behind every one that is possible, whatever its score.
+// stands behind every one that is possible, whatever its score; one whose score
+// is not finite, since its torque is not at where its fit starts or ends, is no
+// rival.
 Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
                      const SelectionOptions& options,
                      const Selection& selection, int k) {
@@ -147,6 +150,7 @@ Rivals CompareRivals(const GapRegression& regression, const CandidatePool& pool,
         IsPossible(refined[r].effects[k], baseline.robot(), scale) &&
         regression.CouldHaveLost(refined[r].effects[k], refined[r].effects);
     rivals.scores.push_back({rival.effect, rival.joint, score, is_possible});
+    if (!std::isfinite(score)) continue;
     if (is_possible < best_is_possible) continue;
     if (is_possible == best_is_possible && !(score > best_score)) continue;
     best_score = score;

@@ -10,6 +10,7 @@ namespace armcal::sentence_test {
 
 using testing::HasSubstr;
 using testing::Not;
+using testing::StartsWith;
 
 TEST(BriefReport, NamesWhatIsMissingAndHowMuchItMatters) {
   GapDiagnosis diagnosis = SampleDiagnosis();
@@ -172,6 +173,23 @@ TEST(BriefReport, TellsWhatARefitSinceAReferenceDoes) {
             "Friction has changed since the reference: elbow.viscous -20 %. "
             "Nothing else is named: " +
                 refit + "; a change that is like these may hide in that.");
+}
+
+// Of friction that was below zero a share has the wrong sign: it is told how
+// much it changed by.
+TEST(BriefReport, TellsNoShareOfFrictionBelowZero) {
+  GapDiagnosis diagnosis = SampleDiagnosis();
+  diagnosis.effects.clear();
+  diagnosis.has_reference = true;
+  diagnosis.verdict = GapVerdict::kAbsorbed;
+  diagnosis.moved = {
+      {"elbow.coulomb", "N m", -.059, .48, .01, 9, JointTerm::kCoulomb},
+      {"elbow.viscous", "N m s/rad", -.054, -.006, .01, 3,
+       JointTerm::kViscous}};
+  EXPECT_THAT(BriefReport(diagnosis),
+              StartsWith("Friction has changed since the reference: "
+                         "elbow.coulomb +0.54 N m, elbow.viscous +0.048 N m "
+                         "s/rad. "));
 }
 
 // Held out, a robot as it was is left with little more than the noise, even

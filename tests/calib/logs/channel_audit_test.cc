@@ -126,6 +126,31 @@ TEST_F(ChannelAuditTest, JitterIsNoLoss) {
   EXPECT_THAT(Names(), IsEmpty());
 }
 
+// Jitter of a third of a step makes steps of .4 to 1.6 of it, and no row is
+// lost; losses beside a jitter of a twentieth are seen.
+TEST_F(ChannelAuditTest, LargeJitterIsNoLoss) {
+  const Eigen::VectorXd t = arm_.log.t;
+  const auto jitter = [&](double most) {
+    std::mt19937_64 random(1);
+    for (int k = 1; k + 1 < arm_.log.size(); ++k) {
+      arm_.log.t[k] += Uniform(&random, -most, most);
+    }
+  };
+  for (const double most : {.003, .0045}) {
+    arm_.log.t = t;
+    jitter(most);
+    EXPECT_EQ(AuditStamps(arm_.log).lost_share, 0);
+  }
+  arm_.log.t = t;
+  std::vector<int> rows;
+  for (int k = 0; k < arm_.log.size(); ++k) {
+    if (k % 3 != 0) rows.push_back(k);
+  }
+  Keep(rows);
+  jitter(.0005);
+  EXPECT_NEAR(AuditStamps(arm_.log).lost_share, 1. / 3, .01);
+}
+
 TEST_F(ChannelAuditTest, StuckColumns) {
   arm_.log.tau.col(1).segment(300, 250).setConstant(arm_.log.tau(300, 1));
   EXPECT_THAT(Names(), ElementsAre("stuck"));

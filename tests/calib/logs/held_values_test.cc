@@ -42,6 +42,18 @@ TEST_F(HeldValuesTest, ATorqueThatIsHeld) {
   EXPECT_THAT(Names(), ElementsAre("held@2"));
 }
 
+// A controller ten times slower than the log; what holds its torque as long
+// while the joint rests holds nothing back.
+TEST_F(HeldValuesTest, ATorqueThatIsHeldForLong) {
+  const Eigen::MatrixXd tau = arm_.log.tau;
+  for (int k = 0; k < arm_.log.size(); ++k) {
+    arm_.log.tau(k, 1) = tau(k - k % 12, 1);
+  }
+  EXPECT_THAT(Names(), ElementsAre("held@2"));
+  arm_.log.q.col(1).setConstant(.3);
+  EXPECT_THAT(Names(), IsEmpty());
+}
+
 // What is rounded to few digits repeats itself as it should, at rest too.
 TEST_F(HeldValuesTest, CoarseValuesAreNotHeld) {
   const auto round = [](double step, Eigen::MatrixXd* x) {
