@@ -8,6 +8,7 @@
 
 #include "calib/diagnose/candidates/candidate_torques.h"
 #include "calib/diagnose/candidates/law_share.h"
+#include "calib/diagnose/data/enough_motion.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
 #include "calib/diagnose/data/thresholds.h"

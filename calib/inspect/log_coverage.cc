@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calib/diagnose/data/audit.h"
+#include "calib/diagnose/data/enough_motion.h"
 #include "calib/diagnose/data/rows.h"
 #include "calib/diagnose/data/segments.h"
 #include "calib/excite/motion_advice.h"

@@ -6,13 +6,7 @@
 #include <cmath>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/logs/stamp_audit.h"
-#include "model/signals/bandwidth.h"
 #include "model/signals/low_pass.h"
-#include "model/text/format.h"
-#include "model/text/input_error.h"
-#include "model/text/input_text.h"
-#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -29,16 +23,6 @@ int NumBlocks(double size, double guards) {
     if (size / blocks >= kShortestRun + guards) return blocks;
   }
   return 1;
-}
-
-// The path of the log with the longest usual step.
-const std::string& SlowestOf(const LogSet& logs) {
-  const std::vector<TimeBase>& all = logs.time_bases();
-  int slowest = 0;
-  for (int k = 1; k < logs.size(); ++k) {
-    if (all[k].median_step > all[slowest].median_step) slowest = k;
-  }
-  return logs.path(slowest);
 }
 
 }  // namespace
@@ -79,6 +63,11 @@ GapRows::GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
     for (int k = 0; k < times.size(); ++k) times[k] = thin_time(s, first + k);
     drift_.back().emplace(times);
   }
+}
+
+double GapRows::Shortest(double bandwidth_hz) {
+  return (kShortestRun / kRateOverBandwidth + 2 * kPeriodsAtEnds) /
+         bandwidth_hz;
 }
 
 double GapRows::ShortestSplit(double bandwidth_hz) {
@@ -355,68 +344,6 @@ std::vector<int> GapRows::SampleOfRow(int joint) const {
     }
   }
   return samples;
-}
-
-SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs) {
-  SplittingGaps found;
-  for (const TimeBase& base : logs.time_bases()) {
-    for (const TimeRange& gap : base.gaps) {
-      const double step = gap.end - gap.begin;
-      if (step <= kGapPeriods / bandwidth_hz) continue;
-      ++found.count;
-      found.longest = std::max(found.longest, step);
-    }
-  }
-  return found;
-}
-
-std::string SplittingGaps::Text() const {
-  return count == 1 ? Format("its gap of %.3g s", longest)
-                    : Format("its %ld gaps of up to %.3g s", count, longest);
-}
-
-double SplittingGaps::BridgingBandwidth() const {
-  return std::floor(kGapPeriods / longest);
-}
-
-// A time in ms leaves no motion either, as its bandwidth is a thousandth: then
-// the unit is told. Where other logs are sampled so slowly that the bandwidth
-// which is left to all of them is too low for these, it is those that lack.
-void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 const LogSet& logs, const LogSet* sets_bandwidth) {
-  if (GapRows(segments, bandwidth_hz).num_rows() > 0) return;
-  for (int k = 0; k < logs.size(); ++k) {
-    const double step = logs.time_bases()[k].median_step;
-    if (TimeUnitOf(step) != 1) throw WrongTimeUnit(logs.path(k), step);
-  }
-  // One run between the bent ends.
-  const double needed = std::max(
-      kShortestSegment,
-      (2 * GapRows::kPeriodsAtEnds + kShortestRun / kRateOverBandwidth) /
-          bandwidth_hz);
-  const SplittingGaps gaps = GapsThatSplit(bandwidth_hz, logs);
-  std::string remedy = "or a higher " + OptionName("bandwidth") + " than " +
-                       NumberText(bandwidth_hz) + " Hz";
-  if (gaps.count > 0 && gaps.BridgingBandwidth() >= 1) {
-    remedy = "or " + OptionName("bandwidth") + "=" +
-             NumberText(gaps.BridgingBandwidth()) +
-             ", for which these gaps are bridged";
-  }
-  const bool is_slowed = sets_bandwidth != nullptr &&
-                         DiagnosisBandwidth(logs.time_bases()) > bandwidth_hz;
-  std::string of = "it";
-  if (is_slowed) {
-    of = logs.path(0) + " at the " + NumberText(bandwidth_hz) +
-         " Hz that this log's rate allows";
-  }
-  throw InputError(
-      is_slowed ? SlowestOf(*sets_bandwidth) : logs.path(0), "", "",
-      "no motion is left of " + of +
-          (gaps.count > 0
-               ? " between " + gaps.Text() + ", where samples are missing"
-               : std::string()) +
-          ", expected " + NumberText(std::ceil(10 * needed) / 10) +
-          " s of it without gap or standstill, " + remedy);
 }
 
 }  // namespace armcal

@@ -2,11 +2,9 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "calib/diagnose/data/segment.h"
-#include "calib/logs/log_set.h"
 #include "calib/logs/torque_drift.h"
 #include "calib/numerics/autoregression.h"
 
@@ -45,6 +43,9 @@ class GapRows {
   GapRows(const std::vector<GapSegment>& segments, double bandwidth_hz,
           LogPart part = {});
 
+  // The shortest segment that has rows, s: one run between the ends that
+  // filters bend.
+  static double Shortest(double bandwidth_hz);
   // The shortest segment of which a part can be held out, s.
   static double ShortestSplit(double bandwidth_hz);
 
@@ -160,26 +161,5 @@ class GapRows {
   Eigen::VectorXd evidence_;           // n, N m or N; empty: none
   Eigen::MatrixXd evidence_weight_;    // like weight_
 };
-
-// Periods of the bandwidth of torques, above which a step between samples
-// splits a log: over a quarter of one a line is as good as what was lost.
-constexpr double kGapPeriods = .25;
-
-// The gaps of logs that split them at that bandwidth.
-struct SplittingGaps {
-  long count = 0;
-  double longest = 0;  // s
-
-  std::string Text() const;  // "its 27 gaps of up to 0.03 s"
-  // Hz, the highest whole one at which none of them does.
-  double BridgingBandwidth() const;
-};
-SplittingGaps GapsThatSplit(double bandwidth_hz, const LogSet& logs);
-
-// Throws InputError where the logs have no rows: nothing to fit or to judge by.
-// `sets_bandwidth`: other logs, whose rate the bandwidth was told by; null:
-// none.
-void CheckMotion(const std::vector<GapSegment>& segments, double bandwidth_hz,
-                 const LogSet& logs, const LogSet* sets_bandwidth = nullptr);
 
 }  // namespace armcal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calib/diagnose/data/enough_motion.h"
 #include "calib/diagnose/data/segment_rate.h"
 #include "calib/diagnose/data/smooth_torque.h"
 #include "calib/diagnose/data/thresholds.h"
