@@ -175,7 +175,8 @@ std::string AlikeBesides(const GapDiagnosis& diagnosis) {
   return " Besides, " +
          (diagnosis.has_reference
               ? alike.names + changed
-              : std::string("it ") + Lacks(alike.least) + " " + alike.names) +
+              : std::string("the model ") + Lacks(alike.least) + " " +
+                    alike.names) +
          ": these data cannot tell which.";
 }
 

@@ -40,6 +40,15 @@ std::string SignedSize(const Effect& effect, const EffectEstimate& size) {
   return meaning + Format(" by %.2g", std::abs(size.value)) + unit;
 }
 
+// " or payload": where else a body may be.
+std::string OrAt(const FoundEffect& found, const GapDiagnosis& diagnosis) {
+  std::string text;
+  for (const PlacedEffect& other : found.or_at) {
+    text += " or " + NameOf(*other.effect, other.joint, diagnosis);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string NameOf(const Effect& effect, int joint,
@@ -53,19 +62,17 @@ std::string NameOf(const Effect& effect, int joint,
 }
 
 std::string NameOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  std::string text = NameOf(*found.effect, found.joint, diagnosis);
-  for (const PlacedEffect& other : found.or_at) {
-    text += " or " + NameOf(*other.effect, other.joint, diagnosis);
-  }
-  return text;
+  return NameOf(*found.effect, found.joint, diagnosis) + OrAt(found, diagnosis);
 }
 
+// The size stands behind the place that it is of.
 std::string ChangeOf(const FoundEffect& found, const GapDiagnosis& diagnosis) {
-  const std::string name = NameOf(found, diagnosis);
-  if (!HasDirection(found)) return name;
+  const std::string name = NameOf(*found.effect, found.joint, diagnosis);
+  if (!HasDirection(found)) return NameOf(found, diagnosis);
   const EffectEstimate& size = found.estimates[0];
   if (found.effect->nature != Effect::Nature::kParameter) {
-    return name + " (" + SignedSize(*found.effect, size) + ")";
+    return name + " (" + SignedSize(*found.effect, size) + ")" +
+           OrAt(found, diagnosis);
   }
   // There is more of friction or inertia; a length is larger.
   const bool is_amount = found.effect->joint_term.has_value();

@@ -86,7 +86,7 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
         has_others ? found.separate_by : found.effect->experiment;
     if (steps.size() == kExperiments || found.of_another_day) return;
     if (experiment.empty()) return;
-    const std::string name = NameOf(*found.effect, found.joint, diagnosis);
+    const std::string name = NameOf(found, diagnosis);
     steps.push_back((has_others ? "to tell " + name + " from what is like it"
                                 : why + name) +
                     ": " + experiment);
@@ -98,7 +98,10 @@ std::vector<std::string> Experiments(const GapDiagnosis& diagnosis) {
                     "itself");
   }
   for (const FoundEffect& found : diagnosis.effects) {
-    if (!IsConfident(found.probability)) add("to be sure of ", found);
+    const bool has_place = found.or_at.empty();
+    if (!IsConfident(found.probability) || !has_place) {
+      add("to be sure of ", found);
+    }
   }
   for (const FoundEffect* found : NearlyNamed(diagnosis)) {
     add(found->one_of_few ? "to be sure of " : "to see whether it is ", *found);

@@ -1,5 +1,6 @@
 #include "calib/diagnose/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -74,8 +75,10 @@ std::string Others(const FoundEffect& found, const GapDiagnosis& diagnosis) {
     const bool is_form_of_it =
         other.joint == found.joint && HasMean(*other.effect, *found.effect);
     // The first words name it as well.
-    const bool is_place_of_it =
-        !found.or_at.empty() && IsCarriedBody(*other.effect);
+    const bool is_place_of_it = std::any_of(
+        found.or_at.begin(), found.or_at.end(), [&](const PlacedEffect& place) {
+          return place.effect == other.effect && place.joint == other.joint;
+        });
     text +=
         Format(is_form_of_it || is_place_of_it ? "         of these %.0f %% as "
                                                : "         or %.0f %% ",

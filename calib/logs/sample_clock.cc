@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "calib/logs/stamp_means.h"
 #include "calib/logs/velocity_law.h"
 
 namespace armcal {
@@ -78,7 +79,9 @@ class ClockEstimate {
     MakeWindows();
     Judge();
     if (clock_.wrong() || clock_.jitters) Rebuild();
-    if (clock_.jitters) clock_.t /= clock_.rate;
+    if (clock_.jitters) {
+      clock_.t = WithMeansOf(Stamps(), clock_.t / clock_.rate);
+    }
     return clock_;
   }
 
@@ -205,15 +208,32 @@ class ClockEstimate {
     JudgeSteps();
   }
 
+  // Steps count by how well both groups know them: an arm that rests or turns
+  // round says nothing of time. Errors below a hundredth of a step are not
+  // asked about: models of the motion between two rows have such.
   void JudgeSteps() {
-    const auto deviations = StepDeviations();
-    const double shared = Covariance(deviations[0], deviations[1]);
-    const double all = Covariance(deviations[0], deviations[0]) *
-                       Covariance(deviations[1], deviations[1]);
-    clock_.jitter = std::sqrt(std::max(0., shared));
-    clock_.step_correlation = shared / std::sqrt(all + 1e-300);
+    const std::vector<StepDeviation> steps = StepDeviations();
+    double weights = 0, mean[2] = {0, 0}, product[2][2] = {{0, 0}, {0, 0}};
+    for (const StepDeviation& step : steps) {
+      weights += step.weight;
+      for (int g = 0; g < 2; ++g) mean[g] += step.weight * step.by_group[g];
+    }
+    if (!(weights > 0)) return;
+    for (double& m : mean) m /= weights;
+    for (const StepDeviation& step : steps) {
+      for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b < 2; ++b) {
+          product[a][b] += step.weight / weights *
+                           (step.by_group[a] - mean[a]) *
+                           (step.by_group[b] - mean[b]);
+        }
+      }
+    }
+    clock_.jitter = std::sqrt(std::max(0., product[0][1]));
+    clock_.step_correlation =
+        product[0][1] / std::sqrt(product[0][0] * product[1][1] + 1e-300);
     clock_.jitters =
-        !clock_.wrong() && shared > 0 &&
+        !clock_.wrong() && clock_.jitter > kLeastRate * steps_.dt.mean() &&
         clock_.step_correlation * clock_.step_correlation > kExplained;
   }
 
@@ -232,17 +252,22 @@ class ClockEstimate {
     return true;
   }
 
-  // What each group finds single steps to differ from the stamps' by, s, beside
-  // the mean rate.
-  std::array<std::vector<double>, 2> StepDeviations() const {
-    std::array<std::vector<double>, 2> deviations;
+  // What each group finds a step to differ from the stamps' by, s, beside the
+  // mean rate, and one over the variance of their difference.
+  struct StepDeviation {
+    double by_group[2];
+    double weight;
+  };
+  std::vector<StepDeviation> StepDeviations() const {
+    std::vector<StepDeviation> deviations;
     for (const Window& w : windows_) {
       for (Eigen::Index k = w.begin; w.tells && k < w.end; ++k) {
         const TimeSums sums[2] = {Sums(groups_[0], k), Sums(groups_[1], k)};
         if (!(sums[0].square > 0 && sums[1].square > 0)) continue;
-        for (int g = 0; g < 2; ++g) {
-          deviations[g].push_back(sums[g].step() - clock_.rate * steps_.dt[k]);
-        }
+        const double expected = clock_.rate * steps_.dt[k];
+        deviations.push_back(
+            {{sums[0].step() - expected, sums[1].step() - expected},
+             1 / (sums[0].step_variance() + sums[1].step_variance())});
       }
     }
     return deviations;
@@ -268,14 +293,25 @@ class ClockEstimate {
         step += share * (sums.step() - expected);
         Count(sums, share);
       }
-      if (IsRepeated(k)) step = 0;
+      if (IsRepeated(k, sums)) step = 0;
       clock_.t[k + 1] = clock_.t[k] + std::max(0., step);
     }
   }
 
-  // Nothing moves on while velocities say that something does.
-  bool IsRepeated(Eigen::Index k) const {
-    return steps_.still[k] && !steps_.v.row(k).isZero(0);
+  VectorXd Stamps() const {
+    VectorXd stamps = VectorXd::Zero(size_ + 1);
+    for (Eigen::Index k = 0; k < size_; ++k) {
+      stamps[k + 1] = stamps[k] + steps_.dt[k];
+    }
+    return stamps;
+  }
+
+  // Nothing moves on while velocities say that something does, by more than the
+  // noise of positions and of theirs: an arm that rests repeats rounded
+  // positions.
+  bool IsRepeated(Eigen::Index k, const TimeSums& sums) const {
+    return steps_.still[k] &&
+           sums.square * steps_.dt[k] * steps_.dt[k] > kSurely * kSurely;
   }
 
   void Count(const TimeSums& sums, double share) {

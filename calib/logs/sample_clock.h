@@ -33,7 +33,7 @@ struct SampleClock {
   // time, which the joints tell better.
   bool jitters = false;
   // The time of each row, s since the first; empty unless the clock is wrong or
-  // jitters. The mean step of one that jitters is the stamps'.
+  // jitters. Of one that jitters the mean over a second is the stamps'.
   Eigen::VectorXd t;
 
   bool wrong() const { return wrong_rate || uneven; }

@@ -35,11 +35,21 @@ std::vector<int> RunsOfOneTime(const std::vector<double>& steps) {
   return runs;
 }
 
+// The middle one of the steps that are of one period, of which `short_one` is
+// among the shortest.
+double PeriodNear(const std::vector<double>& steps, double short_one) {
+  std::vector<double> single;
+  for (const double step : steps) {
+    if (step > .5 * short_one && step < 1.6 * short_one) single.push_back(step);
+  }
+  return single.empty() ? short_one : Median(std::move(single));
+}
+
 // The share of samples that are lost where steps are whole multiples of a
 // period. Rows that are lost make steps of two and three periods and nothing
 // in between; stamps that jitter make all of these, and those in between as
-// often. So where the steps that are no whole multiple are as many as those
-// that would have lost a row, none is.
+// often. So where the steps that are no whole multiple, and longer than one
+// period, are as many as those that would have lost a row, none is.
 double LostShare(const std::vector<double>& steps, double period) {
   constexpr double kNear = .25;  // of a period
   constexpr long kMost = 100;    // periods, beyond which it is a hole
@@ -49,7 +59,7 @@ double LostShare(const std::vector<double>& steps, double period) {
     const long whole = std::max(1L, std::lround(ratio));
     if (whole > kMost) continue;
     if (std::abs(ratio - static_cast<double>(whole)) > kNear) {
-      ++between;
+      if (ratio > 1) ++between;
       continue;
     }
     periods += whole;
@@ -125,7 +135,7 @@ StampFigures AuditStamps(const Log& log) {
   figures.mean_step = between / static_cast<double>(std::max(
                                     1L, static_cast<long>(steps.size()) -
                                             static_cast<long>(figures.holes)));
-  figures.lost_share = LostShare(steps, figures.step);
+  figures.lost_share = LostShare(steps, PeriodNear(steps, figures.step));
   figures.step *= figures.unit;
   for (size_t k = 0; k < runs.size(); ++k) {
     if (!IsHole(runs[k] * figures.step, figures.step)) continue;

@@ -101,8 +101,9 @@ bool GapProposals::IsOfMotion(double f) const {
     const int size = rows_.thin_begin(s + 1) - begin;
     for (int j = 0; j < motion.num_joints(); ++j) {
       if (HasMuchOf(motion.qd.col(j), t, f) ||
-          HasMuchOf(modelled_.col(j).segment(begin, size),
-                    t_.segment(begin, size), f)) {
+          (f < .5 / rows_.step(s) &&  // else it stands at an alias
+           HasMuchOf(modelled_.col(j).segment(begin, size),
+                     t_.segment(begin, size), f))) {
         return true;
       }
     }

@@ -125,8 +125,8 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
   const std::vector<GapCandidate>& effects = fit_.refined().effects;
   const GapCandidate &one = effects[k], &other = effects[i];
   return i != k && one.joint >= 0 && other.joint == one.joint &&
-         !HasMean(*one.effect, *other.effect) &&
-         !HasMean(*other.effect, *one.effect);
+         !(other.effect->joint_term && HasMean(*one.effect, *other.effect)) &&
+         !(one.effect->joint_term && HasMean(*other.effect, *one.effect));
 }
 
 // `odds` is the log odds of this effect at this place against the next best

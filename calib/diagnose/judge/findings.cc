@@ -62,9 +62,11 @@ double GapWhere(const GapFigures& torque, int joint) {
   return std::pow(torque.joints(joint, 1), 2);
 }
 
-// Whether b is what a file has a number for and a's law has a mean of.
+// Whether b is what a file has a number for and a's law has a mean of. (A
+// spring, which a cable is near its centre, is a law of its own beside it.)
 bool IsMeanOf(const FoundEffect& b, const FoundEffect& a) {
-  return a.joint >= 0 && a.joint == b.joint && HasMean(*a.effect, *b.effect);
+  return a.joint >= 0 && a.joint == b.joint &&
+         b.effect->joint_term.has_value() && HasMean(*a.effect, *b.effect);
 }
 
 // A term of which these data tell no joint's value beside the model's others:

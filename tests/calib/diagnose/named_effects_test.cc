@@ -67,10 +67,11 @@ TEST(AlikeBesides, StandsBehindWhatIsNamed) {
   diagnosis.unnamed[0].one_of_few = true;
   diagnosis.unnamed[0].any_probability = .7;
   diagnosis.unnamed[0].equivalent = {{FindEffect("spring"), 1, .2}};
-  EXPECT_EQ(BriefReport(diagnosis),
-            named +
-                " Besides, it probably lacks one of torque gain on elbow "
-                "and spring on elbow: these data cannot tell which.");
+  EXPECT_EQ(
+      BriefReport(diagnosis),
+      named +
+          " Besides, the model probably lacks one of torque gain on elbow "
+          "and spring on elbow: these data cannot tell which.");
   diagnosis.has_reference = true;
   diagnosis.unnamed[0].any_probability = .9;
   EXPECT_THAT(BriefReport(diagnosis),

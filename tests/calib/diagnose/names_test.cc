@@ -49,6 +49,11 @@ TEST(NameOf, TellsWhereABodyMayBe) {
                  {FindEffect("added_mass"), 0, .1}};
   EXPECT_EQ(NameOf(found, SampleDiagnosis()),
             "added mass on elbow or payload or added mass on shoulder");
+  found.or_at.pop_back();
+  found.estimates[0] = {"mass", "kg", .5};
+  found.stddev = {.05};
+  EXPECT_EQ(ChangeOf(found, SampleDiagnosis()),
+            "added mass on elbow (+0.5 kg) or payload");
 }
 
 // A body was added or taken off where its mass is known to that much; joints
