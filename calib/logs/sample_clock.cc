@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/logs/stamp_means.h"
 #include "calib/logs/velocity_law.h"
 
 namespace armcal {
@@ -79,9 +78,7 @@ class ClockEstimate {
     MakeWindows();
     Judge();
     if (clock_.wrong() || clock_.jitters) Rebuild();
-    if (clock_.jitters) {
-      clock_.t = WithMeansOf(Stamps(), clock_.t / clock_.rate);
-    }
+    if (clock_.jitters) clock_.t /= clock_.rate;
     return clock_;
   }
 
@@ -296,14 +293,6 @@ class ClockEstimate {
       if (IsRepeated(k, sums)) step = 0;
       clock_.t[k + 1] = clock_.t[k] + std::max(0., step);
     }
-  }
-
-  VectorXd Stamps() const {
-    VectorXd stamps = VectorXd::Zero(size_ + 1);
-    for (Eigen::Index k = 0; k < size_; ++k) {
-      stamps[k + 1] = stamps[k] + steps_.dt[k];
-    }
-    return stamps;
   }
 
   // Nothing moves on while velocities say that something does, by more than the

@@ -33,7 +33,8 @@ struct SampleClock {
   // time, which the joints tell better.
   bool jitters = false;
   // The time of each row, s since the first; empty unless the clock is wrong or
-  // jitters. Of one that jitters the mean over a second is the stamps'.
+  // jitters. The mean step of one that jitters is the stamps'; in between it is
+  // the joints' (a Panda's stamps wander over seconds, too).
   Eigen::VectorXd t;
 
   bool wrong() const { return wrong_rate || uneven; }
