@@ -205,32 +205,20 @@ class ClockEstimate {
     JudgeSteps();
   }
 
-  // Steps count by how well both groups know them: an arm that rests or turns
-  // round says nothing of time. Errors below a hundredth of a step are not
-  // asked about: models of the motion between two rows have such.
+  // Errors below a hundredth of a step are not asked about: models of the
+  // motion between two rows have such. Where an arm rests for long its steps
+  // are unknown, and no jitter is told.
   void JudgeSteps() {
-    const std::vector<StepDeviation> steps = StepDeviations();
-    double weights = 0, mean[2] = {0, 0}, product[2][2] = {{0, 0}, {0, 0}};
-    for (const StepDeviation& step : steps) {
-      weights += step.weight;
-      for (int g = 0; g < 2; ++g) mean[g] += step.weight * step.by_group[g];
-    }
-    if (!(weights > 0)) return;
-    for (double& m : mean) m /= weights;
-    for (const StepDeviation& step : steps) {
-      for (int a = 0; a < 2; ++a) {
-        for (int b = 0; b < 2; ++b) {
-          product[a][b] += step.weight / weights *
-                           (step.by_group[a] - mean[a]) *
-                           (step.by_group[b] - mean[b]);
-        }
-      }
-    }
-    clock_.jitter = std::sqrt(std::max(0., product[0][1]));
-    clock_.step_correlation =
-        product[0][1] / std::sqrt(product[0][0] * product[1][1] + 1e-300);
+    const auto deviations = StepDeviations();
+    const double shared = Covariance(deviations[0], deviations[1]);
+    const double all = Covariance(deviations[0], deviations[0]) *
+                       Covariance(deviations[1], deviations[1]);
+    const double step = steps_.dt.mean();
+    clock_.jitter = std::sqrt(std::max(0., shared));
+    clock_.step_correlation = shared / std::sqrt(all + 1e-300);
     clock_.jitters =
-        !clock_.wrong() && clock_.jitter > kLeastRate * steps_.dt.mean() &&
+        !clock_.wrong() && clock_.jitter > kLeastRate * step &&
+        clock_.jitter < step &&
         clock_.step_correlation * clock_.step_correlation > kExplained;
   }
 
@@ -249,22 +237,17 @@ class ClockEstimate {
     return true;
   }
 
-  // What each group finds a step to differ from the stamps' by, s, beside the
-  // mean rate, and one over the variance of their difference.
-  struct StepDeviation {
-    double by_group[2];
-    double weight;
-  };
-  std::vector<StepDeviation> StepDeviations() const {
-    std::vector<StepDeviation> deviations;
+  // What each group finds single steps to differ from the stamps' by, s, beside
+  // the mean rate.
+  std::array<std::vector<double>, 2> StepDeviations() const {
+    std::array<std::vector<double>, 2> deviations;
     for (const Window& w : windows_) {
       for (Eigen::Index k = w.begin; w.tells && k < w.end; ++k) {
         const TimeSums sums[2] = {Sums(groups_[0], k), Sums(groups_[1], k)};
         if (!(sums[0].square > 0 && sums[1].square > 0)) continue;
-        const double expected = clock_.rate * steps_.dt[k];
-        deviations.push_back(
-            {{sums[0].step() - expected, sums[1].step() - expected},
-             1 / (sums[0].step_variance() + sums[1].step_variance())});
+        for (int g = 0; g < 2; ++g) {
+          deviations[g].push_back(sums[g].step() - clock_.rate * steps_.dt[k]);
+        }
       }
     }
     return deviations;

@@ -20,18 +20,6 @@ double GainAt(double f, double bandwidth_hz) {
   return 1 / (1 + std::pow(f / bandwidth_hz, 8));
 }
 
-// Whether a sine at f has this share of a signal's variance: A^2 / 2 of its
-// amplitude A. Of pendulums' velocities it has .3 and more, of sums of five
-// harmonics at most .23.
-bool HasMuchOf(const Eigen::VectorXd& signal, const Eigen::VectorXd& t,
-               double f) {
-  constexpr double kShareOfMotion = .25;
-  const Eigen::VectorXd x = signal.array() - signal.mean();
-  const double variance = x.squaredNorm() / static_cast<double>(x.size());
-  const double amplitude = AmplitudeAt(x, t, f);
-  return amplitude * amplitude / 2 > kShareOfMotion * variance;
-}
-
 }  // namespace
 
 using Eigen::MatrixXd;
@@ -54,9 +42,6 @@ GapProposals::GapProposals(const GapRows& rows, const MatrixXd& residual)
       t_[begin + k] = rows.thin_time(static_cast<int>(s), begin + k);
     }
   }
-  std::vector<MatrixXd> tau;
-  for (const GapSegment& segment : rows.segments()) tau.push_back(segment.tau);
-  modelled_ = rows.ThinAll(tau) - residual;
   whitened_ = residual;
   for (int j = 0; j < n; ++j) {
     const double scale = rows.noise(j).stddev();
@@ -90,22 +75,20 @@ std::vector<double> GapProposals::Frequencies(int joint) const {
   return f;
 }
 
-// Whether a sine at f has kShareOfMotion of the variance of a joint's velocity
-// or of the torque that its model explains, in one stretch of log.
+// Whether a sine at f has kShareOfMotion of the variance of a joint's velocity,
+// in one stretch of log: A^2 / 2 of its amplitude A. Of pendulums it has .3 and
+// more, of sums of five harmonics at most .23.
 bool GapProposals::IsOfMotion(double f) const {
-  for (size_t i = 0; i < rows_.segments().size(); ++i) {
-    const Motion& motion = rows_.segments()[i].motion;
+  constexpr double kShareOfMotion = .25;
+  for (const GapSegment& segment : rows_.segments()) {
+    const Motion& motion = segment.motion;
     const VectorXd t =
         VectorXd::LinSpaced(motion.size(), 0, (motion.size() - 1) * motion.dt);
-    const int s = static_cast<int>(i), begin = rows_.thin_begin(s);
-    const int size = rows_.thin_begin(s + 1) - begin;
     for (int j = 0; j < motion.num_joints(); ++j) {
-      if (HasMuchOf(motion.qd.col(j), t, f) ||
-          (f < .5 / rows_.step(s) &&  // else it stands at an alias
-           HasMuchOf(modelled_.col(j).segment(begin, size),
-                     t_.segment(begin, size), f))) {
-        return true;
-      }
+      const VectorXd v = motion.qd.col(j).array() - motion.qd.col(j).mean();
+      const double variance = v.squaredNorm() / static_cast<double>(v.size());
+      const double amplitude = AmplitudeAt(v, t, f);
+      if (amplitude * amplitude / 2 > kShareOfMotion * variance) return true;
     }
   }
   return false;

@@ -17,9 +17,8 @@ class GapProposals {
 
   // Of torques that repeat with a joint's position, 1/rad or 1/m.
   std::vector<double> Harmonics(int joint) const;
-  // Of torques that repeat in time, Hz. None at which a joint swings or its
-  // model's torque does: whatever depends on the state, or on what drives it,
-  // repeats there as well.
+  // Of torques that repeat in time, Hz. None at which a joint swings: whatever
+  // depends on the state repeats there as well.
   std::vector<double> Frequencies(int joint) const;
   int num_logs() const;
   // In which something happened; `searched`: of how many.
@@ -31,7 +30,6 @@ class GapProposals {
 
   const GapRows& rows_;
   Eigen::MatrixXd q_, whitened_;
-  Eigen::MatrixXd modelled_;  // torque that the model explains, N m or N
   Eigen::VectorXd t_;
 };
 

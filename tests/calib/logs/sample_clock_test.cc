@@ -113,9 +113,8 @@ TEST_F(SampleClockTest, StampsThatJitterAreToldFromTheJoints) {
 }
 
 // An arm that moves for a second and rests for the next, when its rounded
-// positions repeat and its velocities have noise: rests keep their length, and
-// say nothing of the jitter.
-TEST_F(SampleClockTest, JitterIsToldOfAnArmThatRestsMeanwhile) {
+// positions repeat and its velocities have noise: rests keep their length.
+TEST_F(SampleClockTest, RestsKeepTheirLength) {
   std::mt19937_64 random(5);
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(log_.size(), log_.q.cols());
   AddNoise(&random, VectorXd::Constant(log_.q.cols(), 1e-4), &noise);
@@ -133,11 +132,10 @@ TEST_F(SampleClockTest, JitterIsToldOfAnArmThatRestsMeanwhile) {
     }
   }
   const VectorXd truth = log_.t;
-  std::uniform_real_distribution<double> off(-3e-4, 3e-4);
+  std::uniform_real_distribution<double> off(-1e-3, 1e-3);
   for (double& t : log_.t) t += off(random);
   const SampleClock clock = EstimateSampleClock(log_);
-  EXPECT_TRUE(clock.jitters);
-  EXPECT_NEAR(clock.jitter, 3e-4 * std::sqrt(2. / 3), 3e-5);
+  EXPECT_TRUE(clock.wrong());
   ASSERT_EQ(clock.t.size(), truth.size());
   EXPECT_LT((clock.t - truth).cwiseAbs().maxCoeff(), 1e-3 * truth.maxCoeff());
 }
