@@ -279,11 +279,10 @@ class ClockEstimate {
   }
 
   // Nothing moves on while velocities say that something does, by more than the
-  // noise of positions and of theirs: an arm that rests repeats rounded
+  // standard deviation of what they say: an arm that rests repeats rounded
   // positions.
   bool IsRepeated(Eigen::Index k, const TimeSums& sums) const {
-    return steps_.still[k] &&
-           sums.square * steps_.dt[k] * steps_.dt[k] > kSurely * kSurely;
+    return steps_.still[k] && sums.square * steps_.dt[k] * steps_.dt[k] > 1;
   }
 
   void Count(const TimeSums& sums, double share) {
