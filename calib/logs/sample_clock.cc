@@ -61,6 +61,11 @@ double Covariance(const std::vector<double>& x, const std::vector<double>& y) {
   return product - mean_x * mean_y;
 }
 
+double Correlation(const std::vector<double>& x, const std::vector<double>& y) {
+  return Covariance(x, y) /
+         std::sqrt(Covariance(x, x) * Covariance(y, y) + 1e-300);
+}
+
 class ClockEstimate {
  public:
   explicit ClockEstimate(const Log& log)
@@ -195,9 +200,7 @@ class ClockEstimate {
       }
     }
     const double shared = Covariance(rates[0], rates[1]);
-    clock_.correlation = shared / std::sqrt(Covariance(rates[0], rates[0]) *
-                                                Covariance(rates[1], rates[1]) +
-                                            1e-300);
+    clock_.correlation = Correlation(rates[0], rates[1]);
     clock_.wander = std::sqrt(std::max(0., shared));
     clock_.uneven = clock_.wander > kLeastRate && clock_.correlation > 0 &&
                     clock_.correlation * clock_.correlation > kExplained;
@@ -211,11 +214,9 @@ class ClockEstimate {
   void JudgeSteps() {
     const auto deviations = StepDeviations();
     const double shared = Covariance(deviations[0], deviations[1]);
-    const double all = Covariance(deviations[0], deviations[0]) *
-                       Covariance(deviations[1], deviations[1]);
     const double step = steps_.dt.mean();
     clock_.jitter = std::sqrt(std::max(0., shared));
-    clock_.step_correlation = shared / std::sqrt(all + 1e-300);
+    clock_.step_correlation = Correlation(deviations[0], deviations[1]);
     clock_.jitters =
         !clock_.wrong() && clock_.jitter > kLeastRate * step &&
         clock_.jitter < step &&

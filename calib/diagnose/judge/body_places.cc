@@ -7,6 +7,7 @@
 
 namespace armcal {
 
+// FoundEffect::equivalent begins with the most probable ones.
 void PoolPlacesOfBody(FoundEffect* found) {
   if (!IsCarriedBody(*found->effect)) return;
   std::vector<PlacedEffect> others;
@@ -16,10 +17,6 @@ void PoolPlacesOfBody(FoundEffect* found) {
     others.push_back(other);
     all += other.probability;
   }
-  std::stable_sort(others.begin(), others.end(),
-                   [](const PlacedEffect& a, const PlacedEffect& b) {
-                     return a.probability > b.probability;
-                   });
   double told = found->probability;
   for (const PlacedEffect& other : others) {
     if (told >= Limits().credible * all) break;
