@@ -11,6 +11,7 @@
 #include "calib/diagnose/data/enough_motion.h"
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/segments.h"
+#include "calib/diagnose/data/swung_joints.h"
 #include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/data/torque_bursts.h"
 #include "calib/diagnose/freedom.h"
@@ -91,6 +92,7 @@ class Diagnoser {
   std::optional<GapFit> fit_;
   std::optional<HeldOut> held_out_;
   bool found_without_name_ = false;  // GapFindings'
+  std::vector<DataFinding> swung_;   // of the reference
   GapDiagnosis result_;
 };
 
@@ -186,7 +188,10 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   // What touches an arm that rests, a reference tells.
   std::vector<GapSegment> segments = Read(training, reference == nullptr);
   std::vector<GapSegment> before;
-  if (reference != nullptr) before = Read(*reference);
+  if (reference != nullptr) {
+    before = Read(*reference);
+    swung_ = LeaveOutSwungJoints(robot_, *reference, &before);
+  }
   Tell("fitting the baseline");
   result_.trust = options_.baseline.trust;
   MissingTerms missing =
@@ -353,6 +358,7 @@ void Diagnoser::Judge() {
   add(AuditTorque(robot_, fit_->rows()));
   add(TellImpossibleTerms(result_.effects, result_.moved));
   const bool testable = AreDoubts(result_.data);
+  add(swung_);
   if (!result_.torque.known()) {
     result_.data.push_back(TooShortToHoldOut(held_out_->rows()));
   }

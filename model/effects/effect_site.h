@@ -27,6 +27,9 @@ struct MotionScale {
   Eigen::VectorXd width;
   // As recorded temperatures say; empty: not recorded.
   std::vector<JointThermal> thermal;
+  // Whether a joint swung freely in all logs, its drive doing next to nothing;
+  // empty: none did.
+  std::vector<bool> swings;
   double begin = 0, end = 0;  // s
 };
 

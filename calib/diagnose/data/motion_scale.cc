@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "calib/diagnose/data/swung_joints.h"
 #include "model/dynamics/joint_warmth.h"
 
 namespace armcal {
@@ -27,6 +29,20 @@ std::vector<JointThermal> RecordedThermal(
                                  longest->motion().dt));
   }
   return thermal;
+}
+
+// Whether each joint swung freely in all logs; empty: none did.
+std::vector<bool> Swinging(const Robot& robot,
+                           const std::vector<GapSegment>& segments) {
+  std::set<int> logs;
+  for (const GapSegment& segment : segments) logs.insert(segment.log);
+  std::vector<size_t> count(robot.num_joints(), 0);
+  const std::vector<SwungJoint> swung = FindSwungJoints(robot, segments);
+  for (const SwungJoint& one : swung) ++count[one.joint];
+  if (swung.empty()) return {};
+  std::vector<bool> swings;
+  for (const size_t of : count) swings.push_back(of == logs.size());
+  return swings;
 }
 
 }  // namespace
@@ -76,6 +92,7 @@ MotionScale ScaleOf(const GapBaseline& baseline, const GapRows& rows,
   for (int j = 0; j < n; ++j) {
     scale.width[j] = baseline.transitions()[j].width;
   }
+  scale.swings = Swinging(baseline.robot(), rows.segments());
   scale.thermal = RecordedThermal(torques);
   return scale;
 }

@@ -35,10 +35,10 @@ bool ReferenceScatter::IsBeyond(double quantile) const {
 
 // A regression of each log's residual on the effect's torque c alone gives what
 // that log shows of it, b_l = c' r / c' c, in units of the effect; 0 where the
-// log has none of it. Their mean square is how far logs of the same robot
-// differ: an effect of that size is the scatter from log to log, and no change.
-// The divisor is one less than their number, though the mean is not taken out:
-// the model they were fitted with took it, so that they are deviations from it.
+// log has none of it. Their variance is how far logs of the same robot differ:
+// an effect of that size is the scatter from log to log, and no change. The
+// model, which they share, has taken up their mean only as far as its prior let
+// it (that of links' masses holds much of a payload), so that it is taken out.
 ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
                                     const MotionScale& scale,
                                     const GapCandidate& effect,
@@ -58,17 +58,20 @@ ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
       of.by_left += torque[j][k] * r[k];
     }
   }
-  ReferenceScatter scatter;
-  double squares = 0, variances = 0;
+  std::vector<double> shown;
+  double variances = 0;
   for (const auto& [log, of] : logs) {
     if (!(of.of_effect > 0)) continue;
-    ++scatter.logs;
-    squares += std::pow(of.by_left / of.of_effect, 2);
+    shown.push_back(of.by_left / of.of_effect);
     variances += 1 / of.of_effect;
   }
+  ReferenceScatter scatter;
+  scatter.logs = static_cast<int>(shown.size());
   if (scatter.logs < 2) return scatter;
+  const Eigen::Map<const VectorXd> b(shown.data(), scatter.logs);
   scatter.freedom = scatter.logs - 1;
-  scatter.stddev = std::sqrt(squares / scatter.freedom);
+  scatter.stddev =
+      (b.array() - b.mean()).matrix().norm() / std::sqrt(scatter.freedom);
   scatter.expected = std::sqrt(variances / scatter.logs);
   return scatter;
 }

@@ -29,7 +29,10 @@ struct ReferenceScatter {
 // of the reference, both whitened as its evidence is: log l shows
 //   b_l = c_l' r_l / (c_l' c_l)
 // of it, the model being that of all logs, and
-//   stddev^2 = sum_l b_l^2 / (logs - 1),  expected^2 = mean of 1 / (c_l' c_l).
+//   stddev^2 = sum_l (b_l - mean b)^2 / (logs - 1),
+//   expected^2 = mean of 1 / (c_l' c_l).
+// What all of them show alike is no scatter: that the reference has it as well
+// is another question (ShareInReference).
 ReferenceScatter ScatterBetweenLogs(const GapBaseline& baseline,
                                     const MotionScale& scale,
                                     const GapCandidate& effect,

@@ -179,6 +179,17 @@ TEST(WhatAMotorMakes, IsNotToldWhereNoTorqueIsRecorded) {
   }
 }
 
+// Nor does a drive that does next to nothing: any factor of that fits.
+TEST(WhatAMotorMakes, IsNotToldWhereTheJointSwings) {
+  EffectArm arm("SCARA RRPR");
+  arm.scale.swings = {true, false, false, false};
+  for (const char* name : {"torque_gain", "torque_nonlinearity"}) {
+    const Effect& effect = *FindEffect(name);
+    EXPECT_NE(effect.unfit(arm.Site(0)), "") << name;
+    EXPECT_EQ(effect.unfit(arm.Site(1)), "") << name;
+  }
+}
+
 // tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
 // weight on the axis nothing shows.
 TEST(PayloadOfAPendulum, IsAPointMass) {
