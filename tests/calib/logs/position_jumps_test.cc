@@ -159,11 +159,11 @@ TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
 // and no rows between them are elsewhere.
 TEST_F(PositionJumpsTest, LossesInARowAreNoSpikes) {
   Log log;
-  log.t = VectorXd::LinSpaced(2000, 0, 19.99);
-  log.q.resize(2000, 3);
-  for (int k = 0, sample = 0; k < 2000; ++k, ++sample) {
-    if (k == 1000 || k == 1005) sample += 10;
-    const double t = .01 * sample;
+  log.t = VectorXd::LinSpaced(20000, 0, 19.999);
+  log.q.resize(20000, 3);
+  for (int k = 0, sample = 0; k < 20000; ++k, ++sample) {
+    if (k == 10575 || k == 10665) sample += 10;  // at 3/4 of the top speed
+    const double t = .001 * sample;
     log.q.row(k) << .5 * std::sin(.4 * M_PI * t), .4 * std::sin(.4 * M_PI * t),
         .3 * std::sin(.5 * M_PI * t);
   }
@@ -173,8 +173,8 @@ TEST_F(PositionJumpsTest, LossesInARowAreNoSpikes) {
     ExpectNothingToMend(of_joint);
   }
   ASSERT_EQ(jumps.missing_time.size(), 2u);
-  EXPECT_EQ(jumps.missing_time[0], 1000);
-  EXPECT_EQ(jumps.missing_time[1], 1005);
+  EXPECT_EQ(jumps.missing_time[0], 10575);
+  EXPECT_EQ(jumps.missing_time[1], 10665);
 }
 
 }  // namespace armcal::position_jumps_test
