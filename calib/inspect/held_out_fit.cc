@@ -21,6 +21,19 @@ constexpr double kHalf = .5;
 // pendulum's), planted ones of the logs named BUILD in
 // tests/real/planted_faults.py a tenth to a thousandth.
 constexpr double kTenth = .1;
+
+// Of squares in both halves and in all samples: whether those of the halves
+// together, which is two-fold cross-validation, and those of all samples fall
+// by a factor of 1.5, and neither half's rise.
+bool CrossValidatesBetter(const Eigen::Vector3d& before,
+                          const Eigen::Vector3d& after) {
+  constexpr double kFactor = 1 + kHalf;
+  return (after.head<2>().array() < before.head<2>().array()).all() &&
+         kFactor * (after.head<2>().sum() + 2 * kLeastRelative) <
+             before.head<2>().sum() + 2 * kLeastRelative &&
+         kFactor * (after[2] + kLeastRelative) < before[2] + kLeastRelative;
+}
+
 // Nats per sample by which `changed` leaves less, half the log of squares.
 double Gain(const HeldOutFit& as_is, const HeldOutFit& changed, int row) {
   return .5 * ((as_is.joints.row(row).array() + kLeastRelative).log() -
@@ -117,6 +130,12 @@ bool IsFirstToExplain(const HeldOutFit& as_is, const HeldOutFit& changed,
     }
   }
   return changed.residual_percent < as_is.residual_percent;
+}
+
+bool IsBetterSign(const HeldOutFit& as_is, const HeldOutFit& changed, int j) {
+  return CrossValidatesBetter(as_is.all, changed.all) &&
+         CrossValidatesBetter(as_is.joints.col(j), changed.joints.col(j)) &&
+         (changed.joints.col(j).array() < kHalf).all();
 }
 
 bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed) {

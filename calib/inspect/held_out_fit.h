@@ -55,6 +55,13 @@ bool IsClearlyBetter(const HeldOutFit& as_is, const HeldOutFit& changed,
 // lacks: as it is, friction and load of the joint explain its torque.
 bool IsFirstToExplain(const HeldOutFit& as_is, const HeldOutFit& changed,
                       int j);
+// Whether another sign of joint j cross-validates better: of all torques
+// together, and of joint j's own, which holds the friction and the load that
+// the sign is told by, the mean of both halves' squares falls by the factor
+// that IsBetterForAll asks of a mean, as those of all samples do. Each half has
+// to agree. Means over all joints would ask the more of one sign the more
+// joints an arm has.
+bool IsBetterSign(const HeldOutFit& as_is, const HeldOutFit& changed, int j);
 // IsClearlyBetter of something that concerns all joints alike, such as a delay.
 bool IsBetterForAll(const HeldOutFit& as_is, const HeldOutFit& changed);
 // Whether the squares of all torques together, in which the joints that work

@@ -52,7 +52,8 @@ bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
   }
   return IsClearlyBetter(as_is, held_out, JointsOf(change)) ||
          (IsOneSign(change.kind) &&
-          IsFirstToExplain(as_is, held_out, change.joint));
+          (IsFirstToExplain(as_is, held_out, change.joint) ||
+           IsBetterSign(as_is, held_out, change.joint)));
 }
 
 std::vector<ReadingChange> AlternativesTo(size_t k, const HeldOutFit& held_out,

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/logs/velocity_law.h"
+#include "calib/logs/step_information.h"
 
 namespace armcal {
 namespace {
@@ -25,23 +25,6 @@ constexpr int kLeastWindows = 20;
 // other's variance.
 constexpr double kExplained = .5;
 constexpr double kSurely = 3;  // standard deviations
-
-// Sums over joints of a step, or over steps: what is told of time.
-struct TimeSums {
-  double product = 0;   // sum v dq / s^2
-  double square = 0;    // sum v^2 / s^2
-  double by_stamp = 0;  // sum v^2 dt / s^2
-
-  void Add(const TimeSums& other) {
-    product += other.product;
-    square += other.square;
-    by_stamp += other.by_stamp;
-  }
-  double rate() const { return product / by_stamp; }
-  double rate_stddev() const { return std::sqrt(square) / by_stamp; }
-  double step() const { return product / square; }
-  double step_variance() const { return 1 / square; }
-};
 
 struct Window {
   Eigen::Index begin, end;  // steps
@@ -69,17 +52,10 @@ double Correlation(const std::vector<double>& x, const std::vector<double>& y) {
 class ClockEstimate {
  public:
   explicit ClockEstimate(const Log& log)
-      : steps_(FitVelocityLaws(log)), size_(steps_.dt.size()) {
-    for (size_t j = 0; j < steps_.laws.size(); ++j) {
-      if (steps_.laws[j].usable) joints_.push_back(static_cast<int>(j));
-    }
-    variance_ = VectorXd::Ones(steps_.v.cols());
-  }
+      : told_(log), steps_(told_.steps()), size_(told_.size()) {}
 
   SampleClock Run() {
-    if (joints_.size() < 2) return clock_;
-    EstimateNoise();
-    if (!MakeGroups()) return clock_;
+    if (!told_.has_groups()) return clock_;
     MakeWindows();
     Judge();
     if (clock_.wrong() || clock_.jitters) Rebuild();
@@ -88,63 +64,6 @@ class ClockEstimate {
   }
 
  private:
-  TimeSums Sums(const std::vector<int>& joints, Eigen::Index k) const {
-    TimeSums sums;
-    for (const int j : joints) {
-      const double v = steps_.v(k, j) / variance_[j];
-      sums.product += v * steps_.change(k, j);
-      sums.square += v * steps_.v(k, j);
-    }
-    sums.by_stamp = sums.square * steps_.dt[k];
-    return sums;
-  }
-
-  // The variance of each joint's dq beside the steps that all joints tell, so
-  // that it is not the clock's. A joint's own share in these is given back: its
-  // residual has 1 - v_j^2 / s_j^2 / (sum of all) of its variance.
-  void EstimateNoise() {
-    constexpr int kRounds = 5;
-    for (const int j : joints_) {
-      variance_[j] = steps_.change.col(j).squaredNorm() / size_ + 1e-300;
-    }
-    for (int round = 0; round < kRounds; ++round) {
-      VectorXd squares = VectorXd::Zero(variance_.size()), free = squares;
-      for (Eigen::Index k = 0; k < size_; ++k) {
-        const TimeSums sums = Sums(joints_, k);
-        if (!(sums.square > 0)) continue;
-        for (const int j : joints_) {
-          const double v = steps_.v(k, j);
-          const double left = steps_.change(k, j) - v * sums.step();
-          squares[j] += left * left;
-          free[j] += 1 - v * v / variance_[j] / sums.square;
-        }
-      }
-      for (const int j : joints_) {
-        // What is exact would have all of the weight.
-        const double least = 1e-12 * steps_.change.col(j).squaredNorm() / size_;
-        variance_[j] = squares[j] / std::max(free[j], 1.) + least + 1e-300;
-      }
-    }
-  }
-
-  // The joint that tells most first, each to the group that knows less.
-  bool MakeGroups() {
-    std::vector<std::pair<double, int>> order;
-    for (const int j : joints_) {
-      const double square =
-          steps_.v.col(j).cwiseProduct(steps_.dt).squaredNorm();
-      order.emplace_back(-square / variance_[j], j);
-    }
-    std::sort(order.begin(), order.end());
-    std::array<double, 2> known = {0, 0};
-    for (const auto& [information, j] : order) {
-      const int to = known[0] > known[1] ? 1 : 0;
-      groups_[to].push_back(j);
-      known[to] -= information;
-    }
-    return known[0] > 0 && known[1] > 0;
-  }
-
   void MakeWindows() {
     const double length = steps_.dt.sum();
     const double least = std::max(
@@ -152,7 +71,7 @@ class ClockEstimate {
     double time = 0;
     Window window{0, 0, {}};
     for (Eigen::Index k = 0; k < size_; ++k) {
-      for (int g = 0; g < 2; ++g) window.groups[g].Add(Sums(groups_[g], k));
+      for (int g = 0; g < 2; ++g) window.groups[g].Add(told_.OfGroup(g, k));
       time += steps_.dt[k];
       if (time < least) continue;
       window.end = k + 1;
@@ -227,9 +146,9 @@ class ClockEstimate {
   // clock all have, where scaled velocities of some joints would be a mean of
   // theirs and others'.
   bool JointsAgree(double off) const {
-    for (const int j : joints_) {
+    for (const int j : told_.joints()) {
       const double way = steps_.v.col(j).cwiseProduct(steps_.dt).norm();
-      const double known = kSurely * std::sqrt(variance_[j]) / way;
+      const double known = kSurely * std::sqrt(told_.variance(j)) / way;
       const double apart = std::abs(steps_.laws[j].gain - 1 - off);
       if (known < .5 * std::abs(off) && apart > .5 * std::abs(off)) {
         return false;
@@ -244,7 +163,7 @@ class ClockEstimate {
     std::array<std::vector<double>, 2> deviations;
     for (const Window& w : windows_) {
       for (Eigen::Index k = w.begin; w.tells && k < w.end; ++k) {
-        const TimeSums sums[2] = {Sums(groups_[0], k), Sums(groups_[1], k)};
+        const TimeSums sums[2] = {told_.OfGroup(0, k), told_.OfGroup(1, k)};
         if (!(sums[0].square > 0 && sums[1].square > 0)) continue;
         for (int g = 0; g < 2; ++g) {
           deviations[g].push_back(sums[g].step() - clock_.rate * steps_.dt[k]);
@@ -267,7 +186,7 @@ class ClockEstimate {
       const Window& window = windows_[w];
       const double rate = window.tells ? window.rate : clock_.rate;
       const double expected = rate * steps_.dt[k];
-      const TimeSums sums = Sums(joints_, k);
+      const TimeSums sums = told_.OfAll(k);
       double step = expected;
       if (window.tells && sums.square > 0) {
         const double share = vary / (vary + sums.step_variance());
@@ -292,11 +211,9 @@ class ClockEstimate {
     if (sums.step() > 1.5 * clock_.period) ++clock_.skipped;
   }
 
-  const VelocitySteps steps_;
+  const StepInformation told_;
+  const VelocitySteps& steps_;
   const Eigen::Index size_;
-  std::vector<int> joints_;
-  VectorXd variance_;  // of the joints' dq
-  std::array<std::vector<int>, 2> groups_;
   std::vector<Window> windows_;
   SampleClock clock_;
 };

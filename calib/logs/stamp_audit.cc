@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "calib/logs/stamp_hole.h"
 #include "calib/numerics/median.h"
@@ -70,6 +72,50 @@ double LostShare(const std::vector<double>& steps, double period) {
   return static_cast<double>(lost) / static_cast<double>(periods);
 }
 
+// Where steps may be either, of 4 Hz to 1 Hz in s and of 4 kHz to 1 kHz in ms.
+bool MayBeEither(double step) { return step > .25 && step <= 1; }
+
+// How much the positions change by, over what recorded velocities and stamps in
+// s make of it, absolute values summed: about 1 if stamps are in s, a
+// thousandth if they are in ms. 0 where nothing tells.
+double ChangeOverVelocity(const Log& log) {
+  if (log.qd.size() == 0) return 0;
+  double change = 0, by_velocity = 0;
+  for (int k = 0; k + 1 < log.size(); ++k) {
+    const double step = log.t[k + 1] - log.t[k];
+    change += (log.q.row(k + 1) - log.q.row(k)).cwiseAbs().sum();
+    by_velocity +=
+        .5 * step * (log.qd.row(k) + log.qd.row(k + 1)).cwiseAbs().sum();
+  }
+  return by_velocity > 0 ? change / by_velocity : 0;
+}
+
+// The speed below which the fastest joint is for nine tenths of the steps, if
+// stamps are in s.
+double UsualSpeed(const Log& log) {
+  std::vector<double> speeds;
+  for (int k = 0; k + 1 < log.size(); ++k) {
+    const double step = log.t[k + 1] - log.t[k];
+    if (!(step > 0)) continue;
+    speeds.push_back((log.q.row(k + 1) - log.q.row(k)).cwiseAbs().maxCoeff() /
+                     step);
+  }
+  return speeds.empty() ? 0 : Quantile(std::move(speeds), .9);
+}
+
+// Of steps that may be either the motion tells: what is 1 in s is a thousandth
+// in ms, so that the boundary is their geometric mean. The ratio to recorded
+// velocities is 1 whatever unit positions have; arms move at about 1 rad/s.
+double UnitByMotion(const Log& log, double step) {
+  const double unit = TimeUnitOf(step);
+  if (!MayBeEither(step)) return unit;
+  const double boundary = std::sqrt(1e-3);
+  double told = ChangeOverVelocity(log);
+  if (told == 0) told = UsualSpeed(log);
+  if (told == 0) return unit;
+  return told > boundary ? 1 : 1e-3;
+}
+
 // Stamps that are rounded repeat alike all along the log, and coarse_stamps
 // says that; a clock that stops repeats one for as long as a hole is.
 void SayOfStops(const StampFigures& stamps,
@@ -93,8 +139,9 @@ void SayOfStops(const StampFigures& stamps,
 }  // namespace
 
 double TimeUnitOf(double step) {
-  // Arms are logged every 0.1 ms to 0.25 s.
-  constexpr double kSlowest = .25;
+  // Arms are logged at 2 Hz and faster, and, where stamps are in ms, at 1 kHz
+  // and slower: this is the geometric mean of steps of .5 s and of 1 ms.
+  constexpr double kSlowest = .7;
   double unit = 1;
   while (step * unit > kSlowest && unit > 1e-9) unit /= 1000;
   return unit;
@@ -122,7 +169,7 @@ StampFigures AuditStamps(const Log& log) {
   if (steps.empty()) return figures;
   figures.step = Quantile(steps, .2);
   figures.longest_gap = *std::max_element(steps.begin(), steps.end());
-  figures.unit = TimeUnitOf(figures.step);
+  figures.unit = UnitByMotion(log, figures.step);
   double between = 0;
   for (const double step : steps) {
     if (IsHole(step * figures.unit, figures.step * figures.unit)) {

@@ -11,6 +11,8 @@ namespace armcal {
 
 // By which stamps with such steps have to be multiplied to be seconds: 1, or
 // 1e-3, 1e-6, 1e-9 where no arm is logged that slowly. And what that is called.
+// Steps of .25 to 1 may be of a slow log in s or of a fast one in ms: these are
+// told by their length alone here, and AuditStamps asks the motion.
 double TimeUnitOf(double step);
 const char* TimeUnitName(double unit);
 // Of a log whose steps, as logged, no arm has in seconds: what unit they are
@@ -31,7 +33,7 @@ struct StampFigures {
   // Steps over three usual ones and over kHole: they split the log.
   long holes = 0;
   double hole_time = 0;  // s, of all of them
-  double unit = 1;       // TimeUnitOf
+  double unit = 1;       // by which stamps were multiplied to be s
 };
 StampFigures AuditStamps(const Log& log);
 

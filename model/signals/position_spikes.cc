@@ -149,12 +149,18 @@ std::vector<PositionSpike> TakeSpikes(const VectorXd& t, const VectorXd& q,
       return other < jumps.size() &&
              t[jumps[other]] - t[k + 1] <= kLongestSpike;
     };
+    // What leaves its motion jumps back again. Two steps over rows that are
+    // missing go the same way, both.
     size_t back = i + 1;
-    while (is_near(back) &&
-           std::abs(q[jumps[back] + 1] - q[k]) >
-               kBack * std::abs(size) +
-                   steps->usual_speed * (t[jumps[back] + 1] - t[k])) {
-      ++back;
+    for (double since = 0; is_near(back); ++back) {
+      const int last = jumps[back];
+      since += q[last + 1] - q[last];
+      if (since * size < 0 &&
+          std::abs(q[last + 1] - q[k]) <=
+              kBack * std::abs(size) +
+                  steps->usual_speed * (t[last + 1] - t[k])) {
+        break;
+      }
     }
     const int begin = EndWithin(t, q, k, -1, *steps, ends);
     const int end = EndWithin(t, q, k + 1, 1, *steps, ends);

@@ -58,6 +58,26 @@ TEST_F(HeldOutFitTest, ADelayConcernsAllJoints) {
   EXPECT_FALSE(IsBetterForAll(as_is, one_worse));
 }
 
+// The sign of one joint has to mend its own torque and all together; what
+// others leave is as it was.
+TEST_F(HeldOutFitTest, OneSignIsAskedOfItsOwnTorque) {
+  HeldOutFit as_is = Fit(arm_.log);
+  as_is.joints.setConstant(.1);
+  as_is.all.setConstant(.1);
+  HeldOutFit changed = as_is;
+  changed.joints.col(3) << .07, .05, .05;  // one half by less than 1.5
+  changed.all << .07, .05, .05;
+  EXPECT_TRUE(IsBetterSign(as_is, changed, 3));
+  EXPECT_FALSE(IsBetterSign(as_is, changed, 2));
+  // Not in its own torque alone, nor where one half says no.
+  HeldOutFit other = changed;
+  other.all.setConstant(.08);
+  EXPECT_FALSE(IsBetterSign(as_is, other, 3));
+  other = changed;
+  other.joints.col(3) << .11, .01, .05;
+  EXPECT_FALSE(IsBetterSign(as_is, other, 3));
+}
+
 // What torques 2 and 4 leave is theirs, whichever joint they are read as.
 TEST_F(HeldOutFitTest, FiguresAreOfColumns) {
   HeldOutFit exchanged = Fit(arm_.log);

@@ -42,4 +42,24 @@ TEST(ReadingConfirmation, LateTorquesOfTwoJoints) {
   EXPECT_NEAR(found.reading.delay, .03, .003);
 }
 
+// A sign of one joint of six is confirmed by its own torque; an order is not.
+TEST(ReadingConfirmation, ASignIsConfirmedByItsOwnTorque) {
+  const InspectedArm arm;
+  const UniformSeries series(arm.log, .01, .05, 8);
+  const ReadingState state(arm.robot, series);
+  HeldOutFit as_is = state.held_out;
+  as_is.joints.setConstant(.1);
+  as_is.all.setConstant(.1);
+  HeldOutFit changed = as_is;
+  changed.joints.col(3).setConstant(.05);
+  changed.all.setConstant(.06);
+  changed.residual_percent *= .8;
+  const auto is_confirmed = [&](Kind kind) {
+    return IsConfirmed(state, {state.best, {kind, 3, 4}}, as_is, changed);
+  };
+  EXPECT_TRUE(is_confirmed(Kind::kTorqueSign));
+  EXPECT_TRUE(is_confirmed(Kind::kPositionSign));
+  EXPECT_FALSE(is_confirmed(Kind::kTorquesExchanged));
+}
+
 }  // namespace armcal::reading_confirmation_test

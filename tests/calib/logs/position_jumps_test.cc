@@ -155,4 +155,26 @@ TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
   }
 }
 
+// Rows lost twice within a tenth of a second: both steps go the joint's way,
+// and no rows between them are elsewhere.
+TEST_F(PositionJumpsTest, LossesInARowAreNoSpikes) {
+  Log log;
+  log.t = VectorXd::LinSpaced(20000, 0, 19.999);
+  log.q.resize(20000, 3);
+  for (int k = 0, sample = 0; k < 20000; ++k, ++sample) {
+    if (k == 10575 || k == 10665) sample += 10;  // at 3/4 of the top speed
+    const double t = .001 * sample;
+    log.q.row(k) << .5 * std::sin(.4 * M_PI * t), .4 * std::sin(.4 * M_PI * t),
+        .3 * std::sin(.5 * M_PI * t);
+  }
+  const LogJumps jumps = Jumps(log);
+  EXPECT_TRUE(jumps.wrong_rows.empty());
+  for (const PositionJumps& of_joint : jumps.joints) {
+    ExpectNothingToMend(of_joint);
+  }
+  ASSERT_EQ(jumps.missing_time.size(), 2u);
+  EXPECT_EQ(jumps.missing_time[0], 10575);
+  EXPECT_EQ(jumps.missing_time[1], 10665);
+}
+
 }  // namespace armcal::position_jumps_test
