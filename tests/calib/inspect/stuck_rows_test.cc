@@ -208,11 +208,9 @@ TEST_F(WrongPositions, TurnsAreTakenOut) {
 // Which may begin in the middle of a turn.
 TEST_F(WrongPositions, TurnsOutsideOfACropAreTakenOutAndNotTold) {
   Wrap();
-  const double first = log_.t[[&] {
-    int k = 0;
-    while (std::abs(log_.q(k + 1, 0) - log_.q(k, 0)) < 1) ++k;
-    return k;
-  }()];
+  int row = 1;  // of the first turn
+  while (std::abs(log_.q(row, 0) - log_.q(row - 1, 0)) < 1) ++row;
+  const double first = log_.t[row - 1];
   EXPECT_TRUE(Mend({0, first - .1}).empty());
   EXPECT_LT(Differs(Read().q.col(0), arm_.log.q.col(0)), 1e-9);
 }
