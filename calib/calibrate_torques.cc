@@ -19,6 +19,7 @@
 #include "calib/linear/outlier_report.h"
 #include "calib/linear/verdict.h"
 #include "calib/log_doubts.h"
+#include "calib/log_readings.h"
 #include "calib/poses/unit_audit.h"
 #include "calib/refine/far_masses.h"
 #include "calib/refine/impossible_robot.h"
@@ -146,6 +147,8 @@ class TorqueCalibrator {
   CalibrateSummary Run();
 
  private:
+  // What is wrong with positions is not read.
+  void Mend();
   // The torque constants become the reading's; false where they are not known,
   // which the summary tells.
   bool EstimateGains();
@@ -169,6 +172,7 @@ class TorqueCalibrator {
   const Robot& robot_;
   const LogInput& input_;
   CalibrateOptions options_;
+  std::vector<DataFinding> mended_;
   std::optional<DriveGains> gains_;
   std::optional<LogSet> training_, held_out_;
   std::optional<SegmentSelection> selection_;
@@ -176,6 +180,14 @@ class TorqueCalibrator {
       std::make_shared<CalibrationDetails>();
   CalibrateSummary summary_;
 };
+
+void TorqueCalibrator::Mend() {
+  LogInput payload;
+  if (options_.payload) payload.logs = options_.payload->logs;
+  mended_ = MendPositions(robot_,
+                          UsedParts({&input_, &options_.validation, &payload}),
+                          &options_.reading);
+}
 
 bool TorqueCalibrator::EstimateGains() {
   if (!options_.payload) return true;
@@ -334,6 +346,7 @@ void TorqueCalibrator::Draw() {
 
 CalibrateSummary TorqueCalibrator::Run() {
   if (options_.progress) options_.progress("opening the logs", -1);
+  Mend();
   if (!EstimateGains()) return summary_;
   LogReaderOptions with_sensor = options_.reading;
   with_sensor.want_wrench = with_sensor.want_current = true;
@@ -371,7 +384,7 @@ CalibrateSummary TorqueCalibrator::Run() {
   AddDriveTrains(&json);
   WarnOfMasses(&json);
   const bool possible = IsPossible(&json);
-  AddLogDoubts(robot_, input_, options_, *training_, *details_, &json,
+  AddLogDoubts(robot_, input_, options_, mended_, *training_, *details_, &json,
                &summary_);
   summary_.json = json.dump(2) + "\n";
   summary_.files.push_back({"calibration.json", summary_.json});

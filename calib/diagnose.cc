@@ -94,14 +94,14 @@ void SetController(const Robot& robot, const LogInput& held_out,
                                    fit->commanded[0].log.qref.row(0));
 }
 
-std::vector<UsedLog> PartsOf(const std::vector<const LogInput*>& inputs) {
-  std::vector<UsedLog> used;
-  for (const LogInput* input : inputs) {
-    for (const LogSource& log : input->logs) {
-      used.push_back({log, input->crop});
-    }
-  }
-  return used;
+// Of torques that a controller's law makes of positions none is stuck.
+std::vector<DataFinding> MendRows(const Robot& robot,
+                                  const std::vector<UsedLog>& used,
+                                  const DiagnoseOptions& options,
+                                  LogReaderOptions* reading) {
+  return options.controller.empty()
+             ? LeaveOutStuckRows(robot, used, options.bandwidth_hz, reading)
+             : MendPositions(robot, used, reading);
 }
 
 // Those that need no file.
@@ -361,12 +361,11 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
   tbb::task_group looking;
-  std::vector<DataFinding> stuck;
+  const std::vector<DataFinding> mended = MendRows(
+      robot,
+      UsedParts({&logs, &options.validation, &options.reference, &own.input}),
+      options, &reading);
   if (options.controller.empty()) {
-    stuck = LeaveOutStuckRows(
-        robot,
-        PartsOf({&logs, &options.validation, &options.reference, &own.input}),
-        options.bandwidth_hz, &reading);
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();
     looking.run([&, scales] {
@@ -391,7 +390,7 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
       DiagnosedGap(known, fit, TrustInFile(options, true),
                    {training, held_out, before, beside ? &*beside : nullptr});
   if (fit.may_trust_less) NoteTrust(fit.baseline.trust, details.get());
-  details->data.insert(details->data.begin(), stuck.begin(), stuck.end());
+  details->data.insert(details->data.begin(), mended.begin(), mended.end());
   AddClocks(clocks, logs.logs, options, details.get());
   if (calibrated) {
     NoteCalibration(*calibrated, own, {&training, held_out, before},

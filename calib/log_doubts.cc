@@ -111,16 +111,21 @@ void TellFirst(const std::vector<DataFinding>& found, nlohmann::json* json,
 }  // namespace
 
 void AddLogDoubts(const Robot& robot, const LogInput& logs,
-                  const CalibrateOptions& options, const LogSet& training,
-                  const CalibrationDetails& details, nlohmann::json* json,
-                  CalibrateSummary* summary) {
+                  const CalibrateOptions& options,
+                  const std::vector<DataFinding>& mended,
+                  const LogSet& training, const CalibrationDetails& details,
+                  nlohmann::json* json, CalibrateSummary* summary) {
   const ReadingQuestions questions = QuestionsOf(robot, options);
-  if (!MayBeMisread(training, details, questions)) return;
-  std::vector<LogSource> all = logs.logs;
-  const std::vector<LogSource>& more = options.validation.logs;
-  all.insert(all.end(), more.begin(), more.end());
-  TellFirst(WrongReadings(robot, Some(all), options.reading, questions), json,
-            summary);
+  std::vector<DataFinding> found = mended;
+  if (MayBeMisread(training, details, questions)) {
+    std::vector<LogSource> all = logs.logs;
+    const std::vector<LogSource>& more = options.validation.logs;
+    all.insert(all.end(), more.begin(), more.end());
+    const auto wrong =
+        WrongReadings(robot, Some(all), options.reading, questions);
+    found.insert(found.end(), wrong.begin(), wrong.end());
+  }
+  if (!found.empty()) TellFirst(found, json, summary);
 }
 
 }  // namespace armcal

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "calib/calibrate_options.h"
 #include "calib/calibrate_summary.h"
 #include "calib/calibration_details.h"
+#include "calib/diagnose/data/audit.h"
 #include "calib/log_input.h"
 #include "calib/logs/log_set.h"
 #include "model/robot/robot.h"
@@ -23,11 +25,15 @@ namespace armcal {
 // of at most four logs, from the first to the last: one recorder writes all
 // logs of a robot alike, and what is looked for shows in seconds of motion.
 //
+// What was mended of the logs before (MendPositions) is told in any case, first
+// of all.
+//
 // Of a file without masses, or with lengths that are to be estimated, only time
 // is asked for its unit.
 void AddLogDoubts(const Robot& robot, const LogInput& logs,
-                  const CalibrateOptions& options, const LogSet& training,
-                  const CalibrationDetails& details, nlohmann::json* json,
-                  CalibrateSummary* summary);
+                  const CalibrateOptions& options,
+                  const std::vector<DataFinding>& mended,
+                  const LogSet& training, const CalibrationDetails& details,
+                  nlohmann::json* json, CalibrateSummary* summary);
 
 }  // namespace armcal

@@ -62,7 +62,8 @@ std::optional<LogInspection> Inspected(const Robot& robot, const LogSource& log,
     if (options.left_out.count(log.name) > 0) {
       DropFindings(
           [](const InspectionFinding& f) {
-            return f.finding == "stuck" && f.leads;
+            return f.leads &&
+                   (f.finding == "stuck" || f.finding == "position_jump");
           },
           &inspection.findings);
     }
@@ -130,6 +131,16 @@ DataFinding Told(const LogSource& log, const InspectionFinding& found) {
 }
 
 }  // namespace
+
+std::vector<UsedLog> UsedParts(const std::vector<const LogInput*>& inputs) {
+  std::vector<UsedLog> used;
+  for (const LogInput* input : inputs) {
+    for (const LogSource& log : input->logs) {
+      used.push_back({log, input->crop});
+    }
+  }
+  return used;
+}
 
 std::vector<DataFinding> WrongReadings(const Robot& robot,
                                        const std::vector<LogSource>& logs,

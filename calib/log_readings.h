@@ -4,11 +4,16 @@
 #include <vector>
 
 #include "calib/diagnose/data/audit.h"
+#include "calib/inspect/stuck_rows.h"
+#include "calib/log_input.h"
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_source.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
+
+// The logs of several inputs, with the parts that are used.
+std::vector<UsedLog> UsedParts(const std::vector<const LogInput*>& inputs);
 
 // What is asked of logs, beside the unit of their time.
 struct ReadingQuestions {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/parameter_posterior.h"
@@ -100,6 +101,11 @@ DrawnTorques Verifier::Draw(const PreparedLogs& logs) const {
 void Verifier::VerifyOnLogs(const LogInput& input, VerifySummary* summary) {
   report_.logs = NamesOf(input.logs);
   if (!options_.controller.empty() && CloseLoop(input)) return;
+  for (const DataFinding& found :
+       MendPositions(file_, UsedParts({&input}), &options_.reading)) {
+    report_.warnings.push_back(found.finding + ": " + found.evidence + "; " +
+                               found.flag);
+  }
   const LogSet logs(input.logs, options_.reading, input.crop);
   if (calibrated_) report_.seen_logs = SeenLogs(logs);
   PreparationOptions prepared;

@@ -19,6 +19,9 @@ struct FrozenChannel {
   double gap = 0;    // rms of the torque that the arm needs, minus recorded
   double usual = 0;  // rms of the same elsewhere, N m or N
   double nats = 0;   // by which the arm's model speaks for it
+  // Of a position that shows by itself that it stood still (stuck_positions.h):
+  // by how much it goes on in the row after it, rad or m.
+  double jump = 0;
 };
 
 // Many torques and positions stand still rightly: those of rounded values, of

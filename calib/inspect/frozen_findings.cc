@@ -6,6 +6,28 @@
 #include "model/text/option_name.h"
 
 namespace armcal {
+namespace {
+
+std::string EvidenceOfRun(const FrozenChannel& run) {
+  const std::string rows =
+      Format("%d rows of one number; ", run.end - run.begin);
+  if (run.jump != 0) {
+    return rows + Format(
+                      "it goes on by %.3g in one row after them, in which "
+                      "it moves no farther than in others",
+                      run.jump);
+  }
+  return rows +
+         Format(run.is_position
+                    ? "its torque goes on, %.3g rms from what holds it at "
+                      "rest, where a fit of the arm leaves %.3g elsewhere"
+                    : "a fit of the arm to all other rows leaves %.3g rms "
+                      "there and %.3g elsewhere",
+                run.gap, run.usual) +
+         Format(" (%.0f nats)", run.nats);
+}
+
+}  // namespace
 
 bool IsOf(const FrozenChannel& run, const InspectionFinding& finding) {
   const std::string signal = run.is_position ? "position" : "torque";
@@ -25,14 +47,7 @@ std::vector<InspectionFinding> FrozenFindings(
             " of " + joint +
             Format(" is stuck at %.6g from %.6g s to %.6g s", run.value,
                    t[run.begin], t[run.end - 1]),
-        Format("%d rows of one number; ", run.end - run.begin) +
-            Format(run.is_position
-                       ? "its torque goes on, %.3g rms from what holds it at "
-                         "rest, where a fit of the arm leaves %.3g elsewhere"
-                       : "a fit of the arm to all other rows leaves %.3g rms "
-                         "there and %.3g elsewhere",
-                   run.gap, run.usual) +
-            Format(" (%.0f nats)", run.nats),
+        EvidenceOfRun(run),
         OptionName("fix") + " writes the log without these rows", run.joint};
     finding.leads = true;
     findings.push_back(finding);

@@ -10,6 +10,7 @@
 #include "calib/inspect/jump_findings.h"
 #include "calib/inspect/position_unit.h"
 #include "calib/inspect/reading_text.h"
+#include "calib/inspect/stuck_positions.h"
 #include "calib/inspect/torque_unit.h"
 #include "calib/inspect/unsigned_torque.h"
 #include "calib/inspect/velocity_signs.h"
@@ -133,13 +134,13 @@ class Inspector {
   // Before anything is concluded from them. Of such a column nothing else is
   // said, but that it is at a limit where it is so in other rows, too.
   void LeaveOutFrozen() {
-    if (log_.tau.size() == 0) return;
-    result_.frozen = FindFrozenChannels(robot_, log_, Series());
+    result_.frozen = FindAllFrozenChannels(robot_, log_, result_.jumps);
     if (result_.frozen.empty()) return;
     const auto findings = FrozenFindings(robot_, log_.t, result_.frozen);
     log_ = WithoutFrozenRows(log_, result_.frozen);
     for (const FrozenChannel& run : result_.frozen) {
       const bool is_at_limit =
+          !run.is_position &&
           (log_.tau.col(run.joint).array() == run.value).count() > 1;
       DropFindings(
           [&](const InspectionFinding& f) {

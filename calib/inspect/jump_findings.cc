@@ -69,12 +69,15 @@ InspectionFinding OfWraps(const std::string& joint, int j,
 InspectionFinding OfSteps(const std::string& joint, int j,
                           const Eigen::VectorXd& t,
                           const std::vector<PositionJumps::Step>& steps) {
-  return {"position_jump", "the position of " + joint + " jumps",
-          Format("by %.3g in one row, ", steps[0].size) +
-              HowOften(steps.size(), t[steps[0].row]),
-          "its zero is another one after that: cut the log there (" +
-              OptionName("crop") + ")",
-          j};
+  InspectionFinding finding{
+      "position_jump", "the position of " + joint + " jumps",
+      Format("by %.3g in one row, ", steps[0].size) +
+          HowOften(steps.size(), t[steps[0].row]),
+      "its zero is another one after that: cut the log there (" +
+          OptionName("crop") + ")",
+      j};
+  finding.leads = true;
+  return finding;
 }
 
 }  // namespace

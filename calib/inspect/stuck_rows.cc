@@ -3,14 +3,16 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "calib/diagnose/data/segment.h"
 #include "calib/diagnose/data/segments.h"
 #include "calib/inspect/frozen_findings.h"
-#include "calib/inspect/inspected_series.h"
 #include "calib/inspect/inspection.h"
+#include "calib/inspect/jump_findings.h"
+#include "calib/inspect/stuck_positions.h"
 #include "calib/logs/log_set.h"
 #include "calib/logs/position_jumps.h"
 #include "calib/logs/stamp_audit.h"
@@ -56,23 +58,28 @@ bool IsEnoughLeft(const LogSource& log, const TimeRange& crop,
   return moving >= kShortestSegment;
 }
 
-struct StuckRows {
+// What is not read of a log, or otherwise, and what is to be said of it.
+struct MendedLog {
+  std::vector<PositionTurn> turns;
   std::vector<RowRange> rows;
   std::vector<DataFinding> findings;
 };
 
+bool IsUsed(const LogParts& parts, double begin, double end) {
+  return std::any_of(parts.crops.begin(), parts.crops.end(),
+                     [&](const TimeRange& crop) {
+                       return end >= crop.begin && begin <= crop.end;
+                     });
+}
+
 // Those that are in a used part lead a diagnosis.
-std::vector<DataFinding> Told(const Robot& robot, const LogParts& parts,
-                              const Log& log,
-                              const std::vector<FrozenChannel>& frozen) {
+std::vector<DataFinding> ToldOfFrozen(
+    const Robot& robot, const LogParts& parts, const Log& log,
+    const std::vector<FrozenChannel>& frozen) {
   std::vector<DataFinding> told;
   const auto findings = FrozenFindings(robot, log.t, frozen);
   for (size_t k = 0; k < frozen.size(); ++k) {
-    const double begin = log.t[frozen[k].begin], end = log.t[frozen[k].end - 1];
-    if (std::none_of(parts.crops.begin(), parts.crops.end(),
-                     [&](const TimeRange& crop) {
-                       return end >= crop.begin && begin <= crop.end;
-                     })) {
+    if (!IsUsed(parts, log.t[frozen[k].begin], log.t[frozen[k].end - 1])) {
       continue;
     }
     told.push_back({"of " + parts.log.name + " " + findings[k].sentence +
@@ -84,55 +91,174 @@ std::vector<DataFinding> Told(const Robot& robot, const LogParts& parts,
   return told;
 }
 
+// Of wraps and lost zeros. These lead a diagnosis, since rows are lost with
+// them; turns are none of the motion, and nothing is lost.
+std::vector<DataFinding> ToldOfJumps(const Robot& robot, const LogParts& parts,
+                                     const Log& log, LogJumps jumps) {
+  const auto is_unused = [&](const PositionJumps::Step& step) {
+    return !IsUsed(parts, log.t[step.row - 1], log.t[step.row]);
+  };
+  for (PositionJumps& of_joint : jumps.joints) {
+    auto& wraps = of_joint.wraps;
+    wraps.erase(std::remove_if(wraps.begin(), wraps.end(), is_unused),
+                wraps.end());
+  }
+  std::vector<DataFinding> told;
+  for (const InspectionFinding& found :
+       JumpFindings(robot, log.t, jumps, true)) {
+    const std::string sentence = "of " + parts.log.name + " " + found.sentence;
+    if (found.finding == "position_wrap") {
+      told.push_back({sentence + ", and these turns are taken out",
+                      found.evidence, "log positions that go on"});
+    } else if (found.finding == "position_jump") {
+      told.push_back({sentence + ", and the rows of its shorter side are left "
+                                 "out",
+                      found.evidence,
+                      "what follows is of the log without them: its zero is "
+                      "another one there",
+                      true});
+    }
+  }
+  return told;
+}
+
+void AddTurns(const LogJumps& jumps, bool of_command,
+              std::vector<PositionTurn>* turns) {
+  for (size_t j = 0; j < jumps.joints.size(); ++j) {
+    for (const PositionJumps::Step& wrap : jumps.joints[j].wraps) {
+      turns->push_back({wrap.row, static_cast<int>(j), wrap.size, of_command});
+    }
+  }
+}
+
+// Mends jumps of a log whose time is in s; `frozen` are those of its rows.
+using RowSearch = std::function<std::vector<FrozenChannel>(
+    const Log& mended, const LogJumps& jumps)>;
+MendedLog MendedOf(const Robot& robot, const LogParts& parts,
+                   const RowSearch& find_frozen, Log log) {
+  MendedLog mended;
+  const LogJumps jumps = FindPositionJumps(robot, log);
+  AddTurns(jumps, false, &mended.turns);
+  if (!mended.turns.empty() && log.qref.size() > 0) {
+    Log commands;  // follow the encoder's turns, at rows of their own
+    commands.t = log.t;
+    commands.q = log.qref;
+    AddTurns(FindPositionJumps(robot, commands), true, &mended.turns);
+  }
+  MendJumps(jumps, &log);
+  const std::vector<FrozenChannel> frozen = find_frozen(log, jumps);
+  mended.rows = RowsOf(frozen);
+  const auto others = RowsOfOtherZeros(jumps, log.size());
+  mended.rows.insert(mended.rows.end(), others.begin(), others.end());
+  mended.findings = ToldOfFrozen(robot, parts, log, frozen);
+  const auto told = ToldOfJumps(robot, parts, log, jumps);
+  mended.findings.insert(mended.findings.end(), told.begin(), told.end());
+  return mended;
+}
+
 // Of a log as an inspection reads it. What cannot be read at all is refused
 // where the log is opened for what it is wanted for, which says more.
-StuckRows StuckRowsIn(const Robot& robot, const LogParts& parts,
-                      const std::optional<double>& bandwidth_hz,
-                      LogReaderOptions reading) {
-  StuckRows stuck;
+MendedLog MendedRead(const Robot& robot, const LogParts& parts,
+                     const LogReaderOptions& reading,
+                     const RowSearch& find_frozen) {
   try {
-    LogReaderOptions inspected = reading;
-    inspected.want_velocity = inspected.commands_do = inspected.currents_do =
-        true;
     Log log;
-    LogReader(parts.log, inspected).Read(kMostInspectedRows, &log);
-    if (log.size() < 3 || log.tau.size() == 0) return stuck;
-    const StampFigures stamps = AuditStamps(log);
-    if (!(stamps.mean_step > 0)) return stuck;
-    log.t *= stamps.unit;
-    MendJumps(FindPositionJumps(robot, log), &log);
-    const std::vector<FrozenChannel> frozen =
-        FindFrozenChannels(robot, log, InspectedSeries(log, stamps.mean_step));
-    if (frozen.empty()) return stuck;
-    reading.left_out[parts.log.name] = RowsOf(frozen);
-    for (const TimeRange& crop : parts.crops) {
-      if (!IsEnoughLeft(parts.log, crop, bandwidth_hz, reading)) return stuck;
-    }
-    stuck = {RowsOf(frozen), Told(robot, parts, log, frozen)};
+    LogReader(parts.log, reading).Read(kMostInspectedRows, &log);
+    const double unit = log.size() < 3 ? 0 : AuditStamps(log).unit;
+    if (!(unit > 0)) return {};
+    log.t *= unit;
+    return MendedOf(robot, parts, find_frozen, std::move(log));
   } catch (const InputError&) {
     return {};
   }
-  return stuck;
+}
+
+MendedLog MendedPositions(const Robot& robot, const LogParts& parts,
+                          LogReaderOptions reading) {
+  reading.need_torque = false;
+  reading.want_reference = true;
+  return MendedRead(robot, parts, reading,
+                    [&](const Log& mended, const LogJumps&) {
+                      return FindStuckPositions(robot, mended);
+                    });
+}
+
+MendedLog StuckRowsIn(const Robot& robot, const LogParts& parts,
+                      const std::optional<double>& bandwidth_hz,
+                      LogReaderOptions reading) {
+  LogReaderOptions inspected = reading;
+  inspected.want_velocity = inspected.commands_do = inspected.currents_do =
+      true;
+  MendedLog mended = MendedRead(
+      robot, parts, inspected, [&](const Log& log, const LogJumps& jumps) {
+        return FindAllFrozenChannels(robot, log, jumps);
+      });
+  if (mended.rows.empty()) return mended;
+  reading.left_out[parts.log.name] = mended.rows;
+  reading.position_turns[parts.log.name] = mended.turns;
+  try {
+    for (const TimeRange& crop : parts.crops) {
+      if (IsEnoughLeft(parts.log, crop, bandwidth_hz, reading)) continue;
+      mended.rows.clear();
+      auto& told = mended.findings;
+      told.erase(std::remove_if(told.begin(), told.end(),
+                                [](const auto& one) { return one.leads; }),
+                 told.end());
+      break;
+    }
+  } catch (const InputError&) {
+    return {};
+  }
+  return mended;
+}
+
+using Mending = std::function<MendedLog(const LogParts&)>;
+std::vector<DataFinding> Mend(const std::vector<UsedLog>& used,
+                              const Mending& mending,
+                              LogReaderOptions* reading) {
+  const std::vector<LogParts> logs = PartsOf(used);
+  std::vector<MendedLog> mended(logs.size());
+  tbb::parallel_for(size_t{0}, logs.size(),
+                    [&](size_t k) { mended[k] = mending(logs[k]); });
+  std::vector<DataFinding> findings;
+  for (size_t k = 0; k < logs.size(); ++k) {
+    const std::string& name = logs[k].log.name;
+    if (!mended[k].rows.empty()) {
+      reading->left_out[name] = std::move(mended[k].rows);
+    }
+    if (!mended[k].turns.empty()) {
+      reading->position_turns[name] = std::move(mended[k].turns);
+    }
+    std::move(mended[k].findings.begin(), mended[k].findings.end(),
+              std::back_inserter(findings));
+  }
+  return findings;
 }
 
 }  // namespace
 
+std::vector<DataFinding> MendPositions(const Robot& robot,
+                                       const std::vector<UsedLog>& used,
+                                       LogReaderOptions* reading) {
+  const LogReaderOptions as_recorded = *reading;
+  return Mend(
+      used,
+      [&](const LogParts& parts) {
+        return MendedPositions(robot, parts, as_recorded);
+      },
+      reading);
+}
+
 std::vector<DataFinding> LeaveOutStuckRows(
     const Robot& robot, const std::vector<UsedLog>& used,
     const std::optional<double>& bandwidth_hz, LogReaderOptions* reading) {
-  const std::vector<LogParts> logs = PartsOf(used);
-  std::vector<StuckRows> stuck(logs.size());
-  tbb::parallel_for(size_t{0}, logs.size(), [&](size_t k) {
-    stuck[k] = StuckRowsIn(robot, logs[k], bandwidth_hz, *reading);
-  });
-  std::vector<DataFinding> findings;
-  for (size_t k = 0; k < logs.size(); ++k) {
-    if (stuck[k].rows.empty()) continue;
-    reading->left_out[logs[k].log.name] = std::move(stuck[k].rows);
-    std::move(stuck[k].findings.begin(), stuck[k].findings.end(),
-              std::back_inserter(findings));
-  }
-  return findings;
+  const LogReaderOptions as_recorded = *reading;
+  return Mend(
+      used,
+      [&](const LogParts& parts) {
+        return StuckRowsIn(robot, parts, bandwidth_hz, as_recorded);
+      },
+      reading);
 }
 
 }  // namespace armcal

@@ -16,6 +16,8 @@ constexpr double kOfMotion = .02;  // rad/s or m/s
 // Times its steps around that a joint goes in a step that misses a row and
 // more; one that starts or stops goes less.
 constexpr double kAhead = 2.5;
+// Of the largest step, to which another one takes it back: as of spikes.
+constexpr double kTakenBack = .2;
 
 // The whole turns in a step, in rad, or in degrees where it is that large; 0
 // where it is none.
@@ -128,6 +130,36 @@ void TakeOthersSpikes(const std::vector<std::vector<PositionSpike>>& found,
             [](const auto& a, const auto& b) { return a.begin < b.begin; });
 }
 
+// The stretches of a log in which a joint has one zero.
+struct ZeroRows {
+  double zero = 0;  // beside that of the first row, rad or m
+  long count = 0;
+  std::vector<RowRange> rows;
+};
+
+std::vector<ZeroRows> ZerosOf(const std::vector<PositionJumps::Step>& steps,
+                              int rows) {
+  std::vector<ZeroRows> zeros;
+  double zero = 0, largest = 0;
+  long begin = 0;
+  const auto add = [&](long end) {
+    auto same = std::find_if(zeros.begin(), zeros.end(), [&](const auto& one) {
+      return std::abs(one.zero - zero) <= kTakenBack * largest;
+    });
+    if (same == zeros.end()) same = zeros.insert(zeros.end(), {zero, 0, {}});
+    same->count += end - begin;
+    same->rows.push_back({begin, end});
+    begin = end;
+  };
+  for (const PositionJumps::Step& step : steps) {
+    add(step.row);
+    zero += step.size;
+    largest = std::max(largest, std::abs(step.size));
+  }
+  add(rows);
+  return zeros;
+}
+
 }  // namespace
 
 LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
@@ -169,6 +201,22 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
   }
   found.missing_time.assign(missing.begin(), missing.end());
   return found;
+}
+
+std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows) {
+  std::vector<RowRange> left_out;
+  for (const PositionJumps& of_joint : jumps.joints) {
+    if (of_joint.steps.empty()) continue;
+    const std::vector<ZeroRows> zeros = ZerosOf(of_joint.steps, rows);
+    const auto usual = std::max_element(
+        zeros.begin(), zeros.end(),
+        [](const auto& a, const auto& b) { return a.count < b.count; });
+    for (auto zero = zeros.begin(); zero != zeros.end(); ++zero) {
+      if (zero == usual) continue;
+      left_out.insert(left_out.end(), zero->rows.begin(), zero->rows.end());
+    }
+  }
+  return left_out;
 }
 
 void MendJumps(const LogJumps& jumps, Log* log) {

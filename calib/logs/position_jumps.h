@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/log_files/log.h"
+#include "model/log_files/row_range.h"
 #include "model/robot/robot.h"
 #include "model/signals/position_spikes.h"
 
@@ -38,5 +39,10 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log);
 // the line between the rows around. Steps stay: which side has the right zero,
 // nobody knows.
 void MendJumps(const LogJumps& jumps, Log* log);
+
+// Rows that are left out where a joint's zero is another one after a step: all
+// but those of the zero that it has for most of the log's `rows`. A step that
+// takes an earlier one back leads to the earlier zero.
+std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows);
 
 }  // namespace armcal

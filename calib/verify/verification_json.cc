@@ -116,6 +116,7 @@ json ToJson(const VerificationReport& report) {
               {"rollout", json::array()},
               {"calibration", nullptr},
               {"checks", ChecksJson(report.Checks())}};
+  if (!report.warnings.empty()) out["warnings"] = report.warnings;
   if (!report.calibration.empty()) {
     out["calibration"] = report.calibration;
     out["calibration_converged"] = report.calibration_converged;

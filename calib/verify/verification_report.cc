@@ -271,7 +271,11 @@ std::vector<std::string> VerificationReport::Shortcomings() const {
 }
 
 std::string FullReport(const VerificationReport& report) {
-  std::string text = Heading(report) + CheckTable(report);
+  std::string text;
+  for (const std::string& warning : report.warnings) {
+    text += "warning    " + warning + "\n";
+  }
+  text += Heading(report) + CheckTable(report);
   if (report.rollouts) text += RolloutTable(*report.rollouts);
   if (report.log_torques) text += LogTorqueTable(*report.log_torques);
   if (report.closed_loop) text += ClosedLoopTable(*report.closed_loop);

@@ -24,7 +24,8 @@ struct VerificationReport {
   std::uint64_t seed = 1;
   std::string calibration;  // path; empty: the robot file as it is
   bool calibration_converged = true;
-  std::vector<std::string> logs;  // replayed
+  std::vector<std::string> logs;      // replayed
+  std::vector<std::string> warnings;  // sentences on what was mended of them
   // Logs that the calibration was fitted to: no held-out check.
   std::vector<std::string> seen_logs;
 

@@ -50,6 +50,8 @@ struct LogReader::Impl {
     if (timed != options.sample_times.end()) sample_times = timed->second;
     const auto holes = options.left_out.find(path);
     if (holes != options.left_out.end()) left_out = holes->second;
+    const auto wrapped = options.position_turns.find(path);
+    if (wrapped != options.position_turns.end()) turns = wrapped->second;
     q = row.Use(columns.Find(Signal::kPosition));
     if (options.want_velocity && columns.HasAll(Signal::kVelocity)) {
       qd = row.Use(columns.Find(Signal::kVelocity));
@@ -219,6 +221,7 @@ struct LogReader::Impl {
   // Rows that follow each other, but for those that are left out.
   bool Read(int max_rows, Log* log) {
     while (ReadRows(max_rows, log)) {
+      TakeTurns(turns, next_row, log);
       next_row += log->size();
       if (left_out.empty()) return true;
       *log = WithoutRows(*log, left_out, next_row - log->size());
@@ -315,6 +318,7 @@ struct LogReader::Impl {
   std::shared_ptr<const Eigen::VectorXd> sample_times;  // null: the stamps
   long next_reconstructed = 0, next_sample = 0;         // rows of both
   std::vector<RowRange> left_out;
+  std::vector<PositionTurn> turns;
   long next_row = 0;  // that is read, of all rows
 
   std::vector<std::string_view> lines;  // that the source has given

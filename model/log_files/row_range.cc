@@ -27,4 +27,30 @@ Log WithoutRows(const Log& log, const std::vector<RowRange>& left_out,
   return kept;
 }
 
+void TakeTurns(const std::vector<PositionTurn>& turns, long first, Log* log) {
+  for (const PositionTurn& turn : turns) {
+    Eigen::MatrixXd& x = turn.of_command ? log->qref : log->q;
+    const long begin = std::max(0L, turn.row - first);
+    if (begin >= x.rows()) continue;
+    x.col(turn.joint).tail(x.rows() - begin).array() -= turn.size;
+  }
+}
+
+// Row by row, since ranges of several joints may overlap and touch.
+RowRange CountedInAll(const RowRange& rows,
+                      const std::vector<RowRange>& left_out) {
+  RowRange all;
+  long kept = 0;
+  for (long row = 0; kept < rows.end; ++row) {
+    const auto has_it = [row](const RowRange& range) {
+      return range.Contains(row);
+    };
+    if (std::any_of(left_out.begin(), left_out.end(), has_it)) continue;
+    if (kept == rows.begin) all.begin = row;
+    ++kept;
+    all.end = row + 1;
+  }
+  return all;
+}
+
 }  // namespace armcal

@@ -18,4 +18,22 @@ struct RowRange {
 Log WithoutRows(const Log& log, const std::vector<RowRange>& left_out,
                 long first = 0);
 
+// From row `row` of a log on, one joint's position is this much too large, rad:
+// by whole turns, as of an encoder that wraps round.
+struct PositionTurn {
+  long row = 0;
+  int joint = 0;
+  double size = 0;
+  bool of_command = false;  // the commanded position (Log::qref), not q
+};
+
+// Takes these turns out of rows that follow each other, of which the first is
+// row `first` of its log.
+void TakeTurns(const std::vector<PositionTurn>& turns, long first, Log* log);
+
+// Which rows of the whole log these are that were counted without the rows left
+// out of it.
+RowRange CountedInAll(const RowRange& rows,
+                      const std::vector<RowRange>& left_out);
+
 }  // namespace armcal

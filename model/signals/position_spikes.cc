@@ -112,7 +112,7 @@ PositionSteps FindJumps(const VectorXd& t, const VectorXd& q) {
   if (count < 2 * kAroundRows) return found;
   found.usual_speed = UsualSpeed(t, q);
   const VectorXd step = StepsOf(q), interval = StepsOf(t);
-  const double least = LeastJump(step);
+  const double least = found.least = LeastJump(step);
   const double usual = found.usual_interval =
       QuantileOf({interval.begin(), interval.end()}, .5);
   double since = t[0];

@@ -14,6 +14,7 @@ struct PositionSteps {
   std::vector<int> jumps;
   double usual_speed = 0;     // below which nine tenths of the motion are
   double usual_interval = 0;  // s, between rows
+  double least = 0;           // what a step has to be larger than, rad or m
 };
 PositionSteps FindJumps(const Eigen::VectorXd& t, const Eigen::VectorXd& q);
 

@@ -146,6 +146,24 @@ TEST_F(PositionJumpsTest, AZeroThatIsLostStaysLost) {
   EXPECT_NEAR(LeftAfterMending(log, 2), .3, 1e-9);
 }
 
+// Rows 500 to 699 have another zero; of one that is lost for good the shorter
+// side is left out.
+TEST_F(PositionJumpsTest, RowsOfTheRarerZeroAreLeftOut) {
+  EXPECT_TRUE(RowsOfOtherZeros(Jumps(arm_.log), arm_.log.size()).empty());
+  Log log = arm_.log;
+  log.q.col(2).segment(500, 200).array() += .3;
+  const std::vector<RowRange> between =
+      RowsOfOtherZeros(Jumps(log), log.size());
+  ASSERT_EQ(between.size(), 1u);
+  EXPECT_EQ(between[0].begin, 500);
+  EXPECT_EQ(between[0].end, 700);
+  log.q.col(0).tail(600).array() -= .3;
+  const std::vector<RowRange> both = RowsOfOtherZeros(Jumps(log), log.size());
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0].begin, log.size() - 600);
+  EXPECT_EQ(both[0].end, log.size());
+}
+
 TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
   const LogJumps jumps = Jumps(WithoutHalfASecond());
   ASSERT_EQ(jumps.missing_time.size(), 1u);

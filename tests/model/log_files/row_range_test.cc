@@ -57,4 +57,39 @@ TEST(RowRange, AReaderLeavesThemOut) {
   }
 }
 
+// Turns count in rows of the log, whatever it is read in, and with rows left
+// out.
+TEST(RowRange, AReaderTakesTurnsOut) {
+  const std::string path = WriteFile(
+      "t,q1,qref1\n0,1,1\n1,2,2\n2,13,3\n3,14,14\n4,5,5\n", "turns.csv");
+  LogReaderOptions options;
+  options.joint_names = {"joint1"};
+  options.need_torque = false;
+  options.want_reference = true;
+  options.position_turns[path] = {
+      {2, 0, 10}, {4, 0, -10}, {3, 0, 10, true}, {4, 0, -10, true}};
+  options.left_out[path] = {{1, 2}};
+  LogReader reader(path, options);
+  for (const int block : {1, 2, 100}) {
+    Log log;
+    std::vector<double> q, command;
+    while (reader.Read(block, &log)) {
+      q.insert(q.end(), log.q.data(), log.q.data() + log.size());
+      command.insert(command.end(), log.qref.data(),
+                     log.qref.data() + log.size());
+    }
+    EXPECT_EQ(q, (std::vector<double>{1, 3, 4, 5})) << block;
+    EXPECT_EQ(command, q) << block;
+    reader.Rewind();
+  }
+}
+
+TEST(RowRange, RowsCountInAllThereAre) {
+  const std::vector<RowRange> left_out = {{7, 9}, {2, 4}, {3, 5}};
+  const RowRange all = CountedInAll({2, 5}, left_out);  // 5, 6, 9 of 0 1 5 6 9
+  EXPECT_EQ(all.begin, 5);
+  EXPECT_EQ(all.end, 10);
+  EXPECT_EQ(CountedInAll({0, 2}, left_out).end, 2);
+}
+
 }  // namespace armcal::row_range_test
