@@ -1,5 +1,6 @@
 #include "calib/inspect/frozen_findings.h"
 
+#include <algorithm>
 #include <string>
 
 #include "model/text/format.h"
@@ -64,6 +65,18 @@ std::vector<RowRange> RowsOf(const std::vector<FrozenChannel>& frozen) {
 Log WithoutFrozenRows(const Log& log,
                       const std::vector<FrozenChannel>& frozen) {
   return WithoutRows(log, RowsOf(frozen));
+}
+
+void DropVelocitiesOfFrozen(const std::vector<FrozenChannel>& frozen,
+                            const std::vector<InspectionFinding>& others,
+                            std::vector<InspectionFinding>* findings) {
+  for (const FrozenChannel& run : frozen) {
+    const auto is_of = [&](const InspectionFinding& f) {
+      return run.is_position && f.joint == run.joint && f.finding == "velocity";
+    };
+    if (std::any_of(others.begin(), others.end(), is_of)) continue;
+    DropFindings(is_of, findings);
+  }
 }
 
 }  // namespace armcal

@@ -23,4 +23,11 @@ std::vector<RowRange> RowsOf(const std::vector<FrozenChannel>& frozen);
 // known there.
 Log WithoutFrozenRows(const Log& log, const std::vector<FrozenChannel>& frozen);
 
+// The velocity goes on where a position stood still: takes findings that it is
+// not the position's slope from those of joints whose position did, unless
+// `others`, what is said of the log without these rows, has them, too.
+void DropVelocitiesOfFrozen(const std::vector<FrozenChannel>& frozen,
+                            const std::vector<InspectionFinding>& others,
+                            std::vector<InspectionFinding>* findings);
+
 }  // namespace armcal

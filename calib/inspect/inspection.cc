@@ -149,6 +149,10 @@ class Inspector {
           },
           &result_.findings);
     }
+    DropVelocitiesOfFrozen(
+        result_.frozen,
+        AuditChannels(robot_, log_, result_.stamps, torque_units_),
+        &result_.findings);
     result_.findings.insert(result_.findings.begin(), findings.begin(),
                             findings.end());
   }

@@ -17,6 +17,7 @@
 #include "calib/logs/position_jumps.h"
 #include "calib/logs/stamp_audit.h"
 #include "model/log_files/log_reader.h"
+#include "model/log_files/text_source.h"
 #include "model/signals/bandwidth.h"
 #include "model/text/input_error.h"
 
@@ -168,6 +169,8 @@ MendedLog MendedRead(const Robot& robot, const LogParts& parts,
     if (!(unit > 0)) return {};
     log.t *= unit;
     return MendedOf(robot, parts, find_frozen, std::move(log));
+  } catch (const ChangedFile&) {
+    throw;
   } catch (const InputError&) {
     return {};
   }

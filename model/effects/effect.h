@@ -141,6 +141,9 @@ struct Effect {
   // for itself: what it says where positive and where negative, clauses that
   // " by 3 mm" goes on with. Empty: the estimate is told with its sign.
   std::string if_positive, if_negative;
+  // Whether it is of what a drive makes of its command, or of how its torque is
+  // recorded: on a joint that swings freely hardly any of it shows.
+  bool of_the_drive = false;
   // Of all joints: whether it moves the time at which friction changes sign, as
   // each joint's own friction may by itself.
   bool moves_reversals = false;

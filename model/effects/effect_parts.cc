@@ -139,11 +139,7 @@ std::string WhyNoNeighbour(const EffectSite& site) {
 std::string WhyNotRecorded(const EffectSite& site) {
   const Eigen::VectorXd& tops = site.scale->top_torque;
   const bool is_zero = tops.size() > 0 && tops[site.joint] == 0;
-  if (is_zero) return "the joint's torque is recorded as zero throughout";
-  const std::vector<bool>& swings = site.scale->swings;
-  return !swings.empty() && swings[site.joint]
-             ? "the joint swings freely: its drive does next to nothing"
-             : "";
+  return is_zero ? "the joint's torque is recorded as zero throughout" : "";
 }
 
 bool CarriesPayload(const Robot& robot) {

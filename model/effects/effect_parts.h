@@ -66,8 +66,7 @@ std::vector<int> Neighbours(const EffectSite& site);
 EffectParameter NeighbourParameter();
 std::string WhyNoNeighbour(const EffectSite& site);
 // Of what a motor makes of its command: why not here, or empty. A passive
-// joint, and one whose torque was not recorded, have zeros throughout; of one
-// that swings freely hardly any of it shows.
+// joint, and one whose torque was not recorded, have zeros throughout.
 std::string WhyNotRecorded(const EffectSite& site);
 // Of what is felt by its swinging and lifting: why not here, or empty.
 std::string WhyNotCarried(const EffectSite& site);

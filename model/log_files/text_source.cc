@@ -131,7 +131,7 @@ struct TextSource::Impl {
                        std::string("cannot be read: ") + strerror(errno));
     }
     if (read < size && Bytes() != bytes) {  // at the end
-      throw InputError(
+      throw ChangedFile(
           name, "", "",
           "has changed while it was read: " + std::to_string(bytes) +
               " bytes at first, " + std::to_string(Bytes()) +

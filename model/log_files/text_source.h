@@ -6,8 +6,16 @@
 #include <vector>
 
 #include "model/log_files/line_source.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
+
+// A file whose size is another at its end than it was when it was opened: what
+// was read of it is not what is there, whatever else is wrong with it.
+class ChangedFile : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 // The lines of a text file, plain or gzipped (told apart by the first two
 // bytes, never by the name), read block by block: memory does not grow with the
@@ -15,8 +23,7 @@ namespace armcal {
 //
 // Throws InputError for what cannot be read as text: a missing file, a
 // directory, a gzip stream that is truncated, damaged or followed by other
-// bytes, NUL bytes, UTF-16, a line longer than a block, a file whose size is
-// another at the end than it was at first.
+// bytes, NUL bytes, UTF-16, a line longer than a block; ChangedFile.
 class TextSource : public LineSource {
  public:
   static constexpr int kBlockBytes = 1 << 20;

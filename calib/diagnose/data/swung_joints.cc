@@ -15,22 +15,22 @@ namespace {
 using Eigen::VectorXd;
 
 // Mean squares over a log's samples, per joint.
-struct Squares {
+struct TorqueSquares {
   VectorXd recorded, gravity, inertia;
   long samples = 0;
 };
 
 // How many of a segment's samples are asked: its motion is low-passed, and a
 // mean square needs no more.
-constexpr int kSamples = 500;
+constexpr int kAsked = 500;
 
-void Add(const Robot& robot, const GapSegment& segment, Squares* of) {
+void Add(const Robot& robot, const GapSegment& segment, TorqueSquares* of) {
   const int n = robot.num_joints();
   if (of->samples == 0) {
     of->recorded = of->gravity = of->inertia = VectorXd::Zero(n);
   }
   const Motion& motion = segment.motion;
-  const int step = std::max(1, segment.size() / kSamples);
+  const int step = std::max(1, segment.size() / kAsked);
   for (int k = 0; k < segment.size(); k += step) {
     const VectorXd q = motion.q.row(k);
     const VectorXd gravity = GravityTorque(robot, q);
@@ -50,7 +50,7 @@ void Add(const Robot& robot, const GapSegment& segment, Squares* of) {
 std::vector<SwungJoint> FindSwungJoints(
     const Robot& robot, const std::vector<GapSegment>& segments) {
   constexpr double kShare = .05;
-  std::map<int, Squares> logs;
+  std::map<int, TorqueSquares> logs;
   for (const GapSegment& segment : segments) {
     Add(robot, segment, &logs[segment.log]);
   }

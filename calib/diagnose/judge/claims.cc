@@ -1,6 +1,7 @@
 #include "calib/diagnose/judge/claims.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "calib/diagnose/data/thresholds.h"
 #include "model/effects/effects.h"
@@ -8,9 +9,19 @@
 namespace armcal {
 namespace {
 
+// Whether a touch has a size: of one that may as well push the other way, as
+// one-sided 95 % have it, nothing is known. Of a joint at rest, whose friction
+// may hold anything, the deviation is sqrt(1/3) of the room that is left, and
+// a touch that is felt is beyond all of it.
+bool IsSizeTold(const FoundEffect& found) {
+  constexpr double kNormal95 = 1.645;
+  return std::abs(found.estimates[0].value) > kNormal95 * found.stddev[0];
+}
+
 // Whether it is told as an effect where it has this probability.
 bool IsClaimedAt(const FoundEffect& found, double probability) {
-  if (!found.is_possible || IsContradicted(found)) return false;
+  if (!found.is_possible || found.of_idle_drive) return false;
+  if (IsContradicted(found)) return false;
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // What the reference is likelier to have as well than not, though that law
@@ -65,7 +76,9 @@ bool IsContradicted(const FoundEffect& found) {
 
 bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
-  if (!found.contacts.empty()) return found.probability >= Limits().likely;
+  if (!found.contacts.empty()) {
+    return found.probability >= Limits().likely && IsSizeTold(found);
+  }
   return IsClaimedAt(found, found.probability);
 }
 

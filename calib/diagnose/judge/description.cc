@@ -28,6 +28,9 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
   const GapRegression& regression = fit.regression();
   found->is_possible = IsPossible(effect, *site.robot, *site.scale) &&
                        regression.CouldHaveLost(effect, fit.refined().effects);
+  const std::vector<bool>& swings = fit.scale().swings;
+  found->of_idle_drive =
+      effect.effect->of_the_drive && !swings.empty() && swings[effect.joint];
 }
 
 // A missing term's values are those of the model with the effects, told for the

@@ -22,6 +22,9 @@ struct FoundEffect {
   // Whether a real arm can have the estimates (Effect::plausible): a load is
   // held by the tool.
   bool is_possible = true;
+  // Whether it is of the drive of a joint that swings freely: what stands in
+  // for errors of a model there, and no size that could be told.
+  bool of_idle_drive = false;
   double probability = 0;
   double any_probability = 0;  // that it or one of `equivalent` is there
   double score = 0;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "model/effects/effect_parts.h"
 
 namespace armcal {
@@ -5,14 +7,29 @@ inline namespace effects {
 
 namespace {
 
+constexpr double kNoLength = 1e-3;  // m
+
 // From the joint's axis to the next joint in the joint's moved frame M, across
 // the axis of a revolute joint, which feels nothing of what lies along it.
-Eigen::Vector3d LengthDirection(const Link& link, const Link& next) {
-  constexpr double kNoLength = 1e-3;  // m
+Eigen::Vector3d LengthVector(const EffectSite& site) {
+  const Link& link = site.robot->links[site.joint];
+  const Link& next = site.robot->links[site.robot->next(site.joint)];
   Eigen::Vector3d p = (link.X_ML * next.X_PF).translation();
   if (IsRotational(link.joint.type)) p.z() = 0;
-  if (p.norm() <= kNoLength) return Eigen::Vector3d::UnitX();
-  return p.normalized();
+  return p;
+}
+
+Eigen::Vector3d LengthDirection(const EffectSite& site) {
+  const Eigen::Vector3d p = LengthVector(site);
+  return p.norm() > kNoLength ? p.normalized() : Eigen::Vector3d::UnitX();
+}
+
+// A length is a distance: it is above zero, and a link of twice the file's is
+// of another arm. Where the file has none, nothing bounds it.
+bool IsOfThisLink(const EffectSite& site,
+                  const std::vector<EffectEstimate>& estimates) {
+  const double length = LengthVector(site).norm();
+  return length <= kNoLength || std::abs(estimates[0].value) < length;
 }
 
 }  // namespace
@@ -30,9 +47,8 @@ Effect LinkLength() {
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const Link& link = site.robot->links[site.joint];
-    const Link& next = site.robot->links[site.robot->next(site.joint)];
     const Eigen::Vector3d p_L =
-        link.X_ML.linear().transpose() * (p[0] * LengthDirection(link, next));
+        link.X_ML.linear().transpose() * (p[0] * LengthDirection(site));
     for (int k = site.joint + 1; k < site.robot->num_joints(); ++k) {
       if (site.robot->parent(k) != site.joint) continue;
       robot->robot.links[k].X_PF.pretranslate(p_L);
@@ -42,6 +58,7 @@ Effect LinkLength() {
     return site.robot->next(site.joint) < 0 ? "the link carries no joint"
                                             : WhyNotCarried(site);
   };
+  effect.plausible = IsOfThisLink;
   effect.experiment = "poses seen by a tracker";
   return effect;
 }

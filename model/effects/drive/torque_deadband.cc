@@ -39,6 +39,7 @@ Effect TorqueDeadband() {
                                               .2 * TorqueScale(site), 3);
                        })};
   effect.unfit = WhyNotRecorded;
+  effect.of_the_drive = true;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double d = p[0], s = p[1];

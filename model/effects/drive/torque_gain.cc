@@ -22,6 +22,7 @@ Effect TorqueGain() {
     return EffectNumbers{{"gain", p[0]}};
   };
   effect.unfit = WhyNotRecorded;
+  effect.of_the_drive = true;
   effect.estimates_a_factor = true;
   effect.plausible = IsOfAMotorConstant;
   effect.experiment = "a known payload, held and moved";

@@ -24,6 +24,7 @@ Effect TorqueNonlinearity() {
       "fall", "1", [](const EffectSite&) { return .05; },
       EffectParameter::Sign::kPositive)};
   effect.unfit = WhyNotRecorded;
+  effect.of_the_drive = true;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double fall = p[0], peak = FallTorque(site);

@@ -12,6 +12,7 @@ Effect TorqueOffset() {
   effect.shows = "any motion, beside gravity that changes sign";
   effect.parameters = {Linear("offset", "E", ShareOfTorque(.05))};
   effect.unfit = WhyNotRecorded;
+  effect.of_the_drive = true;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double offset = p[0];

@@ -138,6 +138,7 @@ Effect TorqueSaturation() {
       // None is tried as well, as of a current limit.
       Refined("fall", "1", {0, 0, .5, 1.5})};
   effect.unfit = WhyNotRecorded;
+  effect.of_the_drive = true;
   effect.apply = [](const EffectSite& site, const Eigen::VectorXd& p,
                     SimulatedRobot* robot) {
     const double share = p[0];

@@ -179,17 +179,6 @@ TEST(WhatAMotorMakes, IsNotToldWhereNoTorqueIsRecorded) {
   }
 }
 
-// Nor does a drive that does next to nothing: any factor of that fits.
-TEST(WhatAMotorMakes, IsNotToldWhereTheJointSwings) {
-  EffectArm arm("SCARA RRPR");
-  arm.scale.swings = {true, false, false, false};
-  for (const char* name : {"torque_gain", "torque_nonlinearity"}) {
-    const Effect& effect = *FindEffect(name);
-    EXPECT_NE(effect.unfit(arm.Site(0)), "") << name;
-    EXPECT_EQ(effect.unfit(arm.Site(1)), "") << name;
-  }
-}
-
 // tau = m c^2 qdd + m g c sin q of a point mass m at c below the axis, whose
 // weight on the axis nothing shows.
 TEST(PayloadOfAPendulum, IsAPointMass) {
@@ -228,6 +217,20 @@ TEST(PayloadOfAPendulum, IsAPointMass) {
   const auto estimates = EstimatesOf(payload, site, p);
   EXPECT_NEAR(estimates[0].value, kMass, 1e-12);
   EXPECT_NEAR(estimates[3].value, -kLever, 1e-12);
+}
+
+// A length is a distance, and one of twice the file's is of another arm. The
+// second link of a PUMA is .4318 m long (Corke and Armstrong-Helouvry 1994).
+TEST(Effects, LinksAreAsLongAsTheirs) {
+  const EffectArm arm("PUMA560 6R");
+  const Effect& length = *FindEffect("link_length");
+  const auto is_plausible = [&](double more) {
+    return length.plausible(arm.Site(1), {{"length", "m", more}});
+  };
+  EXPECT_TRUE(is_plausible(-.43));
+  EXPECT_TRUE(is_plausible(.43));
+  EXPECT_FALSE(is_plausible(-.44));
+  EXPECT_FALSE(is_plausible(.44));
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, EffectOf, testing::ValuesIn(Effects()),

@@ -124,8 +124,20 @@ TEST_F(IsClaimedTest, WhatHeldOutDataContradictIsNot) {
 
 TEST_F(IsClaimedTest, TouchesAreJudgedWhereTheyWere) {
   found_.contacts.resize(1);
+  found_.estimates = {{"torque", "N m", -3}};
+  found_.stddev = {1.7};
   EXPECT_FALSE(Claimed(.49, 1, 0, 0));
   EXPECT_TRUE(Claimed(.5, 0, 0, 0));
+}
+
+// Of a push of -3 +- 2 N m nobody knows which way it is.
+TEST_F(IsClaimedTest, TouchesHaveASize) {
+  found_.contacts.resize(1);
+  found_.estimates = {{"torque", "N m", -3}};
+  found_.stddev = {1.8};
+  EXPECT_TRUE(Claimed(.9, 1));
+  found_.stddev = {1.9};
+  EXPECT_FALSE(Claimed(.9, 1));
 }
 
 TEST_F(IsClaimedTest, WhatSwingsInTimeHelps) {
@@ -140,6 +152,13 @@ TEST_F(IsClaimedTest, WhatARealArmCanHave) {
   found_ = Found("payload", -1, 50);
   EXPECT_TRUE(Claimed(.9, .1));
   found_.is_possible = false;
+  EXPECT_FALSE(Claimed(.9, .1));
+}
+
+// As it has no size there (swung_joints.h).
+TEST_F(IsClaimedTest, NotOfADriveThatDoesNextToNothing) {
+  EXPECT_TRUE(Claimed(.9, .1));
+  found_.of_idle_drive = true;
   EXPECT_FALSE(Claimed(.9, .1));
 }
 
