@@ -18,6 +18,15 @@ bool IsSizeTold(const FoundEffect& found) {
   return std::abs(found.estimates[0].value) > kNormal95 * found.stddev[0];
 }
 
+// Whether touches are fewer than what they stand out from: the arm is known by
+// the motion without them, and where that is the lesser part of the logs, the
+// model is wrong instead (no estimate resists more than half of its samples:
+// Donoho and Huber 1983).
+bool IsAnEvent(const FoundEffect& found) {
+  constexpr double kBreakdown = .5;
+  return found.share_of_time < kBreakdown;
+}
+
 // Whether it is told as an effect where it has this probability.
 bool IsClaimedAt(const FoundEffect& found, double probability) {
   if (!found.is_possible || found.of_idle_drive) return false;
@@ -77,7 +86,8 @@ bool IsContradicted(const FoundEffect& found) {
 bool IsClaimed(const FoundEffect& found) {
   if (found.of_another_day) return true;
   if (!found.contacts.empty()) {
-    return found.probability >= Limits().likely && IsSizeTold(found);
+    return found.probability >= Limits().likely && IsSizeTold(found) &&
+           IsAnEvent(found);
   }
   return IsClaimedAt(found, found.probability);
 }

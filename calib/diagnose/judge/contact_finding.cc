@@ -71,6 +71,25 @@ TimeRange WithinLog(const GapRows& rows, const Contact& contact) {
           std::min(contact.window.end, log.end)};
 }
 
+// The share of the logs' time in which there is one at least.
+double ShareOfTime(const GapRows& rows, const std::vector<Contact>& contacts) {
+  double touched = 0, all = 0;
+  for (const GapSegment& segment : rows.segments()) {
+    const Motion& motion = segment.motion;
+    all += motion.dt * motion.size();
+    for (int k = 0; k < motion.size(); ++k) {
+      const double t = motion.time(k);
+      touched += motion.dt * std::any_of(contacts.begin(), contacts.end(),
+                                         [&](const Contact& contact) {
+                                           return contact.log == segment.log &&
+                                                  t >= contact.window.begin &&
+                                                  t <= contact.window.end;
+                                         });
+    }
+  }
+  return touched / all;
+}
+
 }  // namespace
 
 FoundEffect FindContact(const Robot& robot, const GapFit& fit,
@@ -104,6 +123,7 @@ FoundEffect FindContact(const Robot& robot, const GapFit& fit,
   for (Contact& contact : found.contacts) {
     contact.window = WithinLog(fit.rows(), contact);
   }
+  found.share_of_time = ShareOfTime(fit.rows(), found.contacts);
   found.score = strongest->score;
   if (strongest->fitted) {
     const GapCandidate& force = strongest->fitted->effect;

@@ -33,6 +33,18 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
       effect.effect->of_the_drive && !swings.empty() && swings[effect.joint];
 }
 
+void WidenByJoints(const GapFit& fit, const GapCandidate& effect,
+                   const JointAgreement& agreement, FoundEffect* found) {
+  const double variance = agreement.VarianceBetweenJoints();
+  if (!(variance > 0)) return;
+  const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
+  const std::vector<double> more = EstimateDeviations(
+      *effect.effect, site, effect.p, MatrixXd::Constant(1, 1, variance), 0);
+  for (size_t i = 0; i < more.size(); ++i) {
+    found->stddev[i] = std::hypot(found->stddev[i], more[i]);
+  }
+}
+
 // A missing term's values are those of the model with the effects, told for the
 // joints where the data have narrowed its prior: covariance(c, c) is the
 // posterior variance in units of the prior's, and one near 1 is the prior

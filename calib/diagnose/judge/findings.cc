@@ -145,6 +145,7 @@ FoundEffect Findings::Found(size_t k) const {
     found.joints_agree =
         !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();
     if (!found.joints_agree) found.joint_sizes = agreement.joints;
+    WidenByJoints(fit_, effect, agreement, &found);
   }
   found.dissipates = !MakesFrictionGivePower(fit_, k);
   // What swings has a phase of its own in each log.

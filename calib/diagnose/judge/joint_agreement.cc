@@ -1,6 +1,7 @@
 #include "calib/diagnose/judge/joint_agreement.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
@@ -112,6 +113,19 @@ std::vector<Told> ToldByJoints(const GapFit& fit, size_t k) {
 bool JointAgreement::Differ(double form) const {
   return freedom > 0 && chi_squared > form * delta_chi2 &&
          IsMoreThanChance(chi_squared, freedom);
+}
+
+double JointAgreement::VarianceBetweenJoints() const {
+  if (joints.size() < 2) return 0;
+  double weights = 0, squares = 0;
+  for (const JointSize& one : joints) {
+    const double weight = 1 / (one.stddev * one.stddev);
+    weights += weight;
+    squares += weight * weight;
+  }
+  const double share = squares / (weights * weights);
+  const double beyond = chi_squared - (static_cast<double>(joints.size()) - 1);
+  return std::max(0., beyond) / (weights * (1 - share)) * share;
 }
 
 // The refined effect has one size x for all joints. With P_j its projected

@@ -45,6 +45,15 @@ struct JointAgreement {
   bool Differ(double form) const;
   // Whether one joint alone sees what all that move should.
   bool IsOfOneJoint() const { return moving > 1 && seen_by < 2; }
+  // By how much the variance of the common size is larger than the joints' own
+  // deviations make it, since each joint has a size of its own, in its unit
+  // squared. With the weights w_j = 1 / stddev_j^2 and Q = chi_squared, sizes
+  // scatter from joint to joint by
+  //   tau^2 = max(0, (Q - (joints - 1)) / (sum w - sum w^2 / sum w))
+  // (DerSimonian and Laird 1986), of which the weighted mean has
+  //   tau^2 sum w^2 / (sum w)^2.
+  // 0 where one joint alone tells, or the effect has several parameters.
+  double VarianceBetweenJoints() const;
 };
 
 JointAgreement JointAgreementOn(const GapFit& fit, size_t k);

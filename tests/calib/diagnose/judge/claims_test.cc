@@ -155,6 +155,17 @@ TEST_F(IsClaimedTest, WhatARealArmCanHave) {
   EXPECT_FALSE(Claimed(.9, .1));
 }
 
+// What the arm does most of the time is no event.
+TEST_F(IsClaimedTest, TouchesAreFewerThanWhatTheyStandOutFrom) {
+  found_.contacts.resize(1);
+  found_.estimates = {{"torque", "N m", -3}};
+  found_.stddev = {.1};
+  found_.share_of_time = .45;
+  EXPECT_TRUE(Claimed(.9, 1));
+  found_.share_of_time = .55;
+  EXPECT_FALSE(Claimed(.9, 1));
+}
+
 // As it has no size there (swung_joints.h).
 TEST_F(IsClaimedTest, NotOfADriveThatDoesNextToNothing) {
   EXPECT_TRUE(Claimed(.9, .1));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -32,6 +33,24 @@ TEST(JointAgreementTest, OneOfSeveralJointsIsNotAll) {
   EXPECT_TRUE((JointAgreement{0, 0, 0, 2, 1}.IsOfOneJoint()));
   EXPECT_FALSE((JointAgreement{0, 0, 0, 2, 2}.IsOfOneJoint()));
   EXPECT_FALSE((JointAgreement{0, 0, 0, 1, 1}.IsOfOneJoint()));
+}
+
+// Two sizes d apart scatter by tau^2 = (d^2 - v_1 - v_2) / 2, of which the mean
+// of two that are equally well known has half.
+TEST(JointAgreementTest, SizesThatScatterMakeTheirMeanLessCertain) {
+  JointAgreement agreement;
+  agreement.joints = {{0, 1, .1}, {1, 3, .1}};
+  agreement.chi_squared = 2 * std::pow(1 / .1, 2);
+  agreement.freedom = 1;
+  EXPECT_NEAR(agreement.VarianceBetweenJoints(), (2 - .01) / 2, 1e-12);
+  agreement.chi_squared = .9;  // they scatter by less than they are known to
+  EXPECT_EQ(agreement.VarianceBetweenJoints(), 0);
+  // The better known one tells the mean, and its size is its own.
+  agreement.joints = {{0, 1, .001}, {1, 3, .1}};
+  agreement.chi_squared = 4 / (.01 + 1e-6);
+  EXPECT_NEAR(agreement.VarianceBetweenJoints(), (4 - .01) / 2, 1e-3);
+  agreement.joints = {{0, 1, .001}};
+  EXPECT_EQ(agreement.VarianceBetweenJoints(), 0);
 }
 
 // Of a few milliseconds a refit takes up all but what its prior says: it is
