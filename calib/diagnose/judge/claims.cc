@@ -30,7 +30,8 @@ bool IsAnEvent(const FoundEffect& found) {
 // Whether it is told as an effect where it has this probability.
 bool IsClaimedAt(const FoundEffect& found, double probability) {
   if (!found.is_possible || found.of_idle_drive) return false;
-  if (IsContradicted(found)) return false;
+  if (found.of_motions_line) return false;
+  if (IsContradicted(found) || !HasANumber(found)) return false;
   if (!found.joints_agree || !found.dissipates) return false;
   if (!IsBeyondScatter(found)) return false;
   // What the reference is likelier to have as well than not, though that law
@@ -45,6 +46,16 @@ bool IsClaimedAt(const FoundEffect& found, double probability) {
 }
 
 }  // namespace
+
+bool HasANumber(const FoundEffect& found) {
+  constexpr double kNormal975 = 1.96;
+  if (found.stddev_by_scale.empty()) return true;
+  for (size_t i = 0; i < found.stddev_by_scale.size(); ++i) {
+    const double value = std::abs(found.estimates[i].value);
+    if (value > kNormal975 * found.stddev_by_scale[i]) return true;
+  }
+  return false;
+}
 
 bool IsNeeded(const FoundEffect& found, double extra_variance) {
   const bool has_gap = !(found.gap < 1 - extra_variance);

@@ -33,6 +33,10 @@ bool IsThereWithoutName(const std::vector<FoundEffect>& effects,
 // is a little too large raises chi^2 alone; and what is small compared to what
 // it explained where it was fitted may be what its form has wrong.
 bool IsContradicted(const FoundEffect& found);
+// Whether data tell any number of an effect: one whose 95 % intervals hold 0
+// all has no size, whatever the probability is that regressions give it. A
+// frequency or a time is a number, too.
+bool HasANumber(const FoundEffect& found);
 
 // Whether it is told as an effect; what is not is a candidate. It has to be
 // possible and likelier than not, and likelier still where held-out data do not

@@ -75,6 +75,13 @@ bool IsUntoldTerm(const FoundEffect& found) {
   return found.missing_term && found.estimates.empty();
 }
 
+// Of all joints alike. A clock is one for all; what lags differently is none.
+bool HasOneSize(const GapCandidate& effect) {
+  return effect.joint < 0 &&
+         (effect.effect->nature == Effect::Nature::kRecording ||
+          !effect.effect->if_joints_disagree.empty());
+}
+
 class Findings {
  public:
   Findings(const Robot& robot, const GapFit& fit, const HeldOut& held_out,
@@ -136,11 +143,7 @@ FoundEffect Findings::Found(size_t k) const {
     }
   }
   found.evidence = evidence_.ForEffect(k, all);
-  // A clock is one for all joints; what lags differently is none.
-  const bool has_one_size =
-      effect.effect->nature == Effect::Nature::kRecording ||
-      !effect.effect->if_joints_disagree.empty();
-  if (effect.joint < 0 && has_one_size) {
+  if (HasOneSize(effect)) {
     const JointAgreement agreement = JointAgreementOn(fit_, k);
     found.joints_agree =
         !agreement.Differ(Limits().form_error) && !agreement.IsOfOneJoint();
@@ -345,6 +348,7 @@ bool FitClaimed(GapFindings* findings, GapFit* fit) {
     if (found.fitted.empty() && !found.missing_term) continue;
     found.estimates.clear();
     found.stddev.clear();
+    found.stddev_by_scale.clear();
     if (found.missing_term) {
       if (!covariance) covariance = fit->screen().BaselineCovariance();
       DescribeMissingTerm(*fit, *covariance, &found);
@@ -352,8 +356,11 @@ bool FitClaimed(GapFindings* findings, GapFit* fit) {
     for (int& k : found.fitted) {
       k = static_cast<int>(std::lower_bound(kept.begin(), kept.end(), k) -
                            kept.begin());
-      DescribeFitted(*fit, fit->refined().effects[k],
-                     CovarianceOf(fit->refined(), k), &found);
+      const GapCandidate& effect = fit->refined().effects[k];
+      DescribeFitted(*fit, effect, CovarianceOf(fit->refined(), k), &found);
+      if (HasOneSize(effect)) {
+        WidenByJoints(*fit, effect, JointAgreementOn(*fit, k), &found);
+      }
     }
   }
   effects.erase(std::remove_if(effects.begin(), effects.end(), IsUntoldTerm),

@@ -25,6 +25,9 @@ struct FoundEffect {
   // Whether it is of the drive of a joint that swings freely: what stands in
   // for errors of a model there, and no size that could be told.
   bool of_idle_drive = false;
+  // Whether it swings at a frequency at which the model's own torque does, and
+  // by less: what depends on the state repeats there as well.
+  bool of_motions_line = false;
   double probability = 0;
   double any_probability = 0;  // that it or one of `equivalent` is there
   double score = 0;
@@ -35,6 +38,9 @@ struct FoundEffect {
   std::vector<int> fitted;
   std::vector<EffectEstimate> estimates;
   std::vector<double> stddev;  // of the estimates
+  // The same if the torque's scale were known: a change since a reference of
+  // the same drives is there or not whatever their torque constants are.
+  std::vector<double> stddev_by_scale;
   // rms of its torque over the joint's usual one, on the joint where that is
   // most.
   double size = std::numeric_limits<double>::infinity();

@@ -65,13 +65,13 @@ bool GiveUpWorst(const GapFigures& torque, bool since_reference,
 }
 
 // An effect is fitted beside others first, which may leave the fit again; what
-// it is then is known only now. That no real arm has it says nothing against
-// there being something.
+// it is then is known only now. That no real arm has it, or that its numbers
+// may be 0, says nothing against there being something.
 bool GiveUpImpossible(GapFindings* findings) {
   std::vector<FoundEffect>& effects = findings->effects;
   const auto found =
       std::find_if(effects.begin(), effects.end(), [](const FoundEffect& one) {
-        return !one.fitted.empty() && !one.is_possible;
+        return !one.fitted.empty() && (!one.is_possible || !HasANumber(one));
       });
   if (found == effects.end()) return false;
   GiveUp(found, findings);

@@ -166,6 +166,25 @@ TEST_F(IsClaimedTest, TouchesAreFewerThanWhatTheyStandOutFrom) {
   EXPECT_FALSE(Claimed(.9, 1));
 }
 
+// As what the state repeats looks so, too.
+TEST_F(IsClaimedTest, NotWhatSwingsAsTheMotionDoes) {
+  EXPECT_TRUE(Claimed(.9, .1));
+  found_.of_motions_line = true;
+  EXPECT_FALSE(Claimed(.9, .1));
+}
+
+// Nothing is known of a spring of .012 +- .0073 N m/rad with its neutral
+// position at 4 +- 3 rad.
+TEST_F(IsClaimedTest, EffectsHaveANumber) {
+  found_.estimates = {{"stiffness", "N m/rad", .012}, {"neutral", "rad", 4}};
+  found_.stddev_by_scale = {.0073, 3};
+  EXPECT_FALSE(Claimed(.9, .1));
+  found_.stddev_by_scale = {.006, 3};
+  EXPECT_TRUE(Claimed(.9, .1));
+  found_.stddev_by_scale = {.0073, 2};
+  EXPECT_TRUE(Claimed(.9, .1));
+}
+
 // As it has no size there (swung_joints.h).
 TEST_F(IsClaimedTest, NotOfADriveThatDoesNextToNothing) {
   EXPECT_TRUE(Claimed(.9, .1));

@@ -91,6 +91,9 @@ TEST(GiveUpImpossible, TakesWhatIsOnlyNowImpossible) {
   EXPECT_LE(findings.unnamed[0].probability, .5);
   EXPECT_TRUE(findings.without_name);  // held-out data show something
   EXPECT_FALSE(GiveUpImpossible(&findings));
+  findings.effects[0].estimates = {{"stiffness", "N m/rad", .012}};
+  findings.effects[0].stddev_by_scale = {.0073};
+  EXPECT_TRUE(GiveUpImpossible(&findings));
 }
 
 // A name for what left-out data do not show is at most as likely as not, and
