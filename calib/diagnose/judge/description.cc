@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "calib/diagnose/candidates/candidates.h"
-#include "calib/diagnose/candidates/search.h"
+#include "calib/diagnose/candidates/line_of_motion.h"
 #include "calib/diagnose/data/column_prior.h"
 #include "calib/diagnose/data/estimate_deviations.h"
 #include "calib/diagnose/select/chosen.h"
@@ -12,43 +12,6 @@ namespace armcal {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
-
-// Of a torque V that swings in time at f, whether the model explains more of
-// the recorded torque R at f than V does, |R - V|(f) > |V|(f): then an error of
-// the model by a part of what it has there looks like V, and as the motion has
-// that line in other parts of the log and in held-out ones as well, they
-// confirm it. A shaker's line is in what is recorded, and in no model.
-bool IsLineOfMotion(const GapFit& fit, const GapCandidate& effect) {
-  const EffectSite site = {&fit.baseline().robot(), effect.joint, &fit.scale()};
-  const double frequency =
-      NumberOf(effect.effect->numbers(site, effect.p), "frequency");
-  const GapRows& rows = fit.rows();
-  std::vector<MatrixXd> recorded;
-  for (const GapSegment& segment : rows.segments()) {
-    recorded.push_back(segment.tau.col(effect.joint));
-  }
-  const VectorXd tau = rows.ThinAll(recorded);
-  const VectorXd swing = fit.regression().TorqueOf({effect})[effect.joint];
-  const std::vector<int>& samples = rows.SampleOfRow(effect.joint);
-  std::vector<double> times, swings, others;
-  for (size_t row = 0; row < samples.size(); ++row) {
-    const int segment = rows.SegmentOf(samples[row]);
-    if (effect.log >= 0 && rows.segments()[segment].log != effect.log) continue;
-    times.push_back(rows.thin_time(segment, samples[row]));
-    swings.push_back(swing[static_cast<Eigen::Index>(row)]);
-    others.push_back(tau[samples[row]] - swings.back());
-  }
-  const auto size = static_cast<Eigen::Index>(times.size());
-  const Eigen::Map<const VectorXd> t(times.data(), size);
-  const Eigen::Map<const VectorXd> v(swings.data(), size);
-  const Eigen::Map<const VectorXd> model(others.data(), size);
-  return AmplitudeAt(model.array() - model.mean(), t, frequency) >
-         AmplitudeAt(v, t, frequency);
-}
-
-}  // namespace
 
 // Estimates of an effect in the units of a report, with standard deviations by
 // the delta method (EstimateDeviations) from the covariance of its fitted
@@ -71,8 +34,12 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
                                 by_scale.end());
   found->is_possible = IsPossible(effect, *site.robot, *site.scale) &&
                        regression.CouldHaveLost(effect, fit.refined().effects);
-  found->of_motions_line =
-      SwingsInTime(*effect.effect) && IsLineOfMotion(fit, effect);
+  if (SwingsInTime(*effect.effect)) {
+    found->of_motions_line = IsLineOfMotion(
+        fit.baseline().robot(), fit.rows(), effect.joint, effect.log,
+        regression.TorqueOf({effect})[effect.joint],
+        NumberOf(effect.effect->numbers(site, effect.p), "frequency"));
+  }
   const std::vector<bool>& swings = fit.scale().swings;
   found->of_idle_drive =
       effect.effect->of_the_drive && !swings.empty() && swings[effect.joint];

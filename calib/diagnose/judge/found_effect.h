@@ -25,8 +25,8 @@ struct FoundEffect {
   // Whether it is of the drive of a joint that swings freely: what stands in
   // for errors of a model there, and no size that could be told.
   bool of_idle_drive = false;
-  // Whether it swings at a frequency at which the model's own torque does, and
-  // by less: what depends on the state repeats there as well.
+  // Whether it swings at a frequency at which the motion does, so that an error
+  // of the model would look like it (line_of_motion.h).
   bool of_motions_line = false;
   double probability = 0;
   double any_probability = 0;  // that it or one of `equivalent` is there

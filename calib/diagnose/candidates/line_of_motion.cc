@@ -1,0 +1,69 @@
+#include "calib/diagnose/candidates/line_of_motion.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "calib/diagnose/candidates/search.h"
+#include "model/dynamics/forward_dynamics.h"
+#include "model/dynamics/inverse_dynamics.h"
+
+namespace armcal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A joint's recorded torque and what the file has of it, gravity and inertia,
+// of all thinned samples: columns.
+MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint) {
+  MatrixXd parts(rows.num_thin(), 3);
+  int row = 0;
+  for (size_t i = 0; i < rows.segments().size(); ++i) {
+    const int s = static_cast<int>(i);
+    const GapSegment& segment = rows.segments()[i];
+    const Motion& motion = segment.motion;
+    const MatrixXd tau = rows.Thin(s, segment.tau.col(joint));
+    const MatrixXd q = rows.Pick(s, motion.q), qd = rows.Pick(s, motion.qd),
+                   qdd = rows.Pick(s, motion.qdd);
+    for (int k = 0; k < q.rows(); ++k, ++row) {
+      const double gravity = GravityTorque(robot, q.row(k))[joint];
+      const double all =
+          InverseDynamics(robot, q.row(k), qd.row(k), qdd.row(k))[joint];
+      parts.row(row) << tau(k, 0), gravity, all - gravity;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
+                    const VectorXd& swing, double frequency) {
+  constexpr double kError = .5;  // of a part of the model
+  const MatrixXd parts = PartsOf(robot, rows, joint);
+  const std::vector<int> samples = rows.SampleOfRow(joint);
+  std::vector<int> used;
+  for (size_t row = 0; row < samples.size(); ++row) {
+    const int segment = rows.SegmentOf(samples[row]);
+    const bool is_its = log < 0 || rows.segments()[segment].log == log;
+    if (is_its) used.push_back(static_cast<int>(row));
+  }
+  const auto size = static_cast<Eigen::Index>(used.size());
+  VectorXd t(size), v(size);
+  MatrixXd model(size, 3);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const int sample = samples[used[k]];
+    t[k] = rows.thin_time(rows.SegmentOf(sample), sample);
+    v[k] = swing[used[k]];
+    model.row(k) = parts.row(sample);
+  }
+  model.col(0) -= v;
+  model.rowwise() -= model.colwise().mean().eval();
+  double largest = 0;
+  for (int part = 0; part < 3; ++part) {
+    largest = std::max(largest, AmplitudeAt(model.col(part), t, frequency));
+  }
+  return kError * largest > AmplitudeAt(v, t, frequency);
+}
+
+}  // namespace armcal
