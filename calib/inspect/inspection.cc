@@ -336,20 +336,9 @@ class Inspector {
     robot.gravity = result_.reading.gravity;
     const WiringSamples samples =
         SamplesAs(result_.reading, robot_, series, kSamples);
-    for (const UnsignedTorque& lost :
-         FindUnsignedTorques(robot, samples, joints)) {
-      InspectionFinding finding{
-          "unsigned_torque",
-          "the torque of " + robot_.links[lost.joint].joint.name +
-              " has lost its sign",
-          Format("of its size, held out, a fit leaves %.3g %% as logged and "
-                 "%.3g %% with both signs, the other in %.0f %% of the samples",
-                 lost.before, lost.after,
-                 100 * std::min(lost.turned, 1 - lost.turned)),
-          "log the torque with its sign", lost.joint};
-      finding.held_out_before = lost.before;
-      finding.held_out_after = lost.after;
-      DropSigns(lost.joint);
+    for (const InspectionFinding& finding :
+         UnsignedFindings(robot, series, log_, samples, joints)) {
+      DropSigns(finding.joint);
       result_.findings.push_back(finding);
     }
   }
