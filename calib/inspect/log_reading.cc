@@ -179,6 +179,9 @@ class Reader {
             const std::vector<double>& misfits, std::vector<Candidate>* all) {
     (*all)[k].change.alternatives =
         AlternativesTo(k, held_out, misfits, *all, state_);
+    if (BringsInReach(state_, (*all)[k])) {
+      (*all)[k].change.hint = "as logged they are beyond the file's limits";
+    }
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
     state_.Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -206,13 +209,8 @@ class Reader {
           return state_.SamplesOf(at).tau;
         },
         asked);
-    const bool is_alone = std::count(asked.begin(), asked.end(), true) == 1;
-    state_.joints_of_delay = is_alone ? 1 : found.joints;
-    if (found.IsBeyond(kLeastDelay)) {
-      best.reading.delay = found.mean;
-    } else if (is_alone && found.inside && std::abs(found.best) > kLeastDelay) {
-      best.reading.delay = found.best;
-    }
+    state_.joints_of_delay = found.is_alone ? 1 : found.joints;
+    if (found.IsBeyond(kLeastDelay)) best.reading.delay = found.mean;
     return best;
   }
 

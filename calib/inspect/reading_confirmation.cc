@@ -5,6 +5,8 @@
 namespace armcal {
 namespace {
 
+using Kind = ReadingChange::Kind;
+
 // Delays that have nothing to do with each other, anywhere within the 80 ms to
 // either side, agree within two deviations of each, some 10 ms, in a fourth of
 // the cases where there are two, and in a sixteenth where there are three.
@@ -18,9 +20,16 @@ bool ExplainsMost(const HeldOutFit& as_is, const HeldOutFit& changed) {
 
 }  // namespace
 
+bool BringsInReach(const ReadingState& state, const Candidate& candidate) {
+  const std::vector<int> joints = JointsOf(candidate.change);
+  return !joints.empty() && candidate.change.kind != Kind::kTorqueSign &&
+         candidate.change.kind != Kind::kTorquesExchanged &&
+         !state.AreInReach(state.best, joints) &&
+         state.AreInReach(candidate.reading, joints);
+}
+
 bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
                  const HeldOutFit& as_is, const HeldOutFit& held_out) {
-  using Kind = ReadingChange::Kind;
   const ReadingChange& change = candidate.change;
   const bool all_fit_better = IsBetterForAll(
       OfColumns(as_is, state.best.wiring.torque_column),
@@ -42,6 +51,8 @@ bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
       state.ScalesOf(state.best).AreOpposite() && leaves_less) {
     return true;
   }
+  // As of a unit: where limits tell, torques only have to fit better.
+  if (leaves_less && BringsInReach(state, candidate)) return true;
   // Columns of single joints stand in the motion of all: what is wrong with
   // them shows in the torques of others, too. That of a joint which hardly
   // works may fit better by chance, and a direction of gravity or a unit is

@@ -23,6 +23,12 @@ constexpr double kTwoDeviations = 2;
 constexpr double kOfInterval = 1.96;  // standard deviations, of 95 %
 // Of the torque's squares: no model leaves less than 1 % of the torque.
 constexpr double kLeastLeft = 1e-4;
+// Of the torque's squares: what leaves more explains less than it leaves, and
+// when a torque was recorded that no model explains, none tells.
+constexpr double kMostLeft = .5;
+// Each of which is left out once. One event, such as a single step or the only
+// time that a joint turns round, lies in one or two of them.
+constexpr int kStretches = 8;
 
 struct ToldDelay {
   double delay, variance;
@@ -40,21 +46,58 @@ bool IsInside(const VectorXd& profile, Eigen::Index k) {
   return k > 0 && k + 1 < profile.size();
 }
 
-// Of one joint's profile, in nats; nothing where it does not rise on both sides
-// within what was searched.
-std::optional<ToldDelay> DelayOf(const VectorXd& profile) {
-  Eigen::Index k = 0;
-  const double least = profile.minCoeff(&k);
-  if (!IsInside(profile, k)) return std::nullopt;
-  Eigen::Index low = k, high = k;
-  while (low >= 0 && profile[low] < least + kTwoDeviations) --low;
-  while (high < profile.size() && profile[high] < least + kTwoDeviations) {
-    ++high;
+// Of one joint: what fits leave of its torque, over delays.
+class JointProfile {
+ public:
+  // Squares over those of the torque, delays x stretches.
+  explicit JointProfile(MatrixXd left) : left_(std::move(left)) {}
+
+  VectorXd Nats(int without = -1) const {
+    VectorXd sum = left_.rowwise().sum();
+    if (without >= 0) sum -= left_.col(without);
+    return .5 * kIndependent * (sum.array() + kLeastLeft).log().matrix();
   }
-  if (low < 0 || high == profile.size()) return std::nullopt;
-  const double stddev = static_cast<double>(high - low) * kDelayStep / 4;
-  return ToldDelay{LowestDelay(profile, k), stddev * stddev};
-}
+  bool IsExplained() const {
+    return left_.rowwise().sum().minCoeff() < kMostLeft;
+  }
+
+  // Nothing where it does not rise on both sides within what was searched, with
+  // all stretches or without one of them. Its variance is that of the profile's
+  // width or that of the delete-one jackknife over the stretches (Tukey 1958),
+  // whichever is more: a delay that one stretch decides is not told by the
+  // others.
+  std::optional<ToldDelay> Delay() const {
+    std::optional<ToldDelay> all = OfWidth(Nats());
+    if (!all) return std::nullopt;
+    VectorXd without(kStretches);
+    for (int b = 0; b < kStretches; ++b) {
+      const VectorXd nats = Nats(b);
+      Eigen::Index k = 0;
+      nats.minCoeff(&k);
+      if (!IsInside(nats, k)) return std::nullopt;
+      without[b] = LowestDelay(nats, k);
+    }
+    const double squares = (without.array() - without.mean()).square().sum();
+    all->variance =
+        std::max(all->variance, squares * (kStretches - 1) / kStretches);
+    return all;
+  }
+
+ private:
+  static std::optional<ToldDelay> OfWidth(const VectorXd& nats) {
+    Eigen::Index k = 0;
+    const double least = nats.minCoeff(&k);
+    if (!IsInside(nats, k)) return std::nullopt;
+    Eigen::Index low = k, high = k;
+    while (low >= 0 && nats[low] < least + kTwoDeviations) --low;
+    while (high < nats.size() && nats[high] < least + kTwoDeviations) ++high;
+    if (low < 0 || high == nats.size()) return std::nullopt;
+    const double stddev = static_cast<double>(high - low) * kDelayStep / 4;
+    return ToldDelay{LowestDelay(nats, k), stddev * stddev};
+  }
+
+  MatrixXd left_;
+};
 
 void SetMean(const std::vector<ToldDelay>& told, TorqueDelay* result) {
   const auto mean = [&](double scatter, double* weights) {
@@ -73,10 +116,37 @@ void SetMean(const std::vector<ToldDelay>& told, TorqueDelay* result) {
     apart += std::pow(t.delay - alike, 2) / t.variance;
   }
   const double expected = static_cast<double>(told.size()) - 1;
+  // One has no scatter.
   const double scatter =
-      std::max(0., (apart - expected) / (weights - squares / weights));
+      told.size() > 1
+          ? std::max(0., (apart - expected) / (weights - squares / weights))
+          : 0;
   result->mean = mean(scatter, &weights);
   result->stddev = 1 / std::sqrt(weights);
+}
+
+// Of each joint.
+std::vector<JointProfile> Profiles(
+    const TorqueFit& fit, const std::function<MatrixXd(double)>& torques,
+    Eigen::Index joints) {
+  constexpr int kDelays = 2 * kDelaySteps + 1;
+  std::vector<MatrixXd> left(joints, MatrixXd(kDelays, kStretches));
+  for (int k = 0; k < kDelays; ++k) {
+    const MatrixXd tau = torques(DelayAt(k));
+    const MatrixXd asked = fit.InMotion(tau);
+    const MatrixXd squares =
+        (asked - fit.Torque(fit.Parameters(tau))).cwiseAbs2();
+    const Eigen::Index size = tau.rows();
+    for (Eigen::Index j = 0; j < joints; ++j) {
+      const double all = asked.col(j).squaredNorm() + 1e-18;
+      for (int b = 0; b < kStretches; ++b) {
+        const Eigen::Index begin = b * size / kStretches;
+        const Eigen::Index end = (b + 1) * size / kStretches;
+        left[j](k, b) = squares.col(j).segment(begin, end - begin).sum() / all;
+      }
+    }
+  }
+  return {left.begin(), left.end()};
 }
 
 }  // namespace
@@ -89,32 +159,18 @@ TorqueDelay FindTorqueDelay(const TorqueFit& fit,
                             const std::function<MatrixXd(double)>& torques,
                             const std::vector<bool>& asked) {
   const auto n = static_cast<Eigen::Index>(asked.size());
-  MatrixXd profiles(2 * kDelaySteps + 1, n);  // nats
-  for (int k = 0; k <= 2 * kDelaySteps; ++k) {
-    const MatrixXd tau = torques(DelayAt(k));
-    const VectorXd all = fit.InMotion(tau).colwise().squaredNorm();
-    const VectorXd left = fit.Squares(fit.Parameters(tau), tau);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double share = left[j] / (all[j] + 1e-18) + kLeastLeft;
-      profiles(k, j) = .5 * kIndependent * std::log(share);
-    }
-  }
   TorqueDelay result;
   std::vector<ToldDelay> told;
-  VectorXd sum = VectorXd::Zero(2 * kDelaySteps + 1);
+  int explained = 0;
+  const std::vector<JointProfile> profiles = Profiles(fit, torques, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    if (!asked[j]) continue;
-    sum += profiles.col(j);
-    if (const auto one = DelayOf(profiles.col(j))) told.push_back(*one);
+    if (!asked[j] || !profiles[j].IsExplained()) continue;
+    ++explained;
+    if (const auto one = profiles[j].Delay()) told.push_back(*one);
   }
-  Eigen::Index k = 0;
-  sum.minCoeff(&k);
-  result.inside = IsInside(sum, k);
-  result.best =
-      result.inside ? LowestDelay(sum, k) : DelayAt(static_cast<double>(k));
   result.joints = static_cast<int>(told.size());
-  const auto of = std::count(asked.begin(), asked.end(), true);
-  result.known = told.size() > 1 && 2 * static_cast<long>(told.size()) > of;
+  result.is_alone = explained == 1;
+  result.known = !told.empty() && 2 * result.joints > explained;
   if (result.known) SetMean(told, &result);
   return result;
 }

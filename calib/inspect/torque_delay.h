@@ -13,13 +13,14 @@ namespace armcal {
 // joint in a way of its own: so what joints say apart is the measure of how
 // well a delay is known.
 struct TorqueDelay {
-  double best = 0;      // what leaves least in all joints together
-  bool inside = false;  // best is no end of what was searched
   // Of the joints' delays, each with its own error and a scatter that they
   // have in common (DerSimonian and Laird 1986).
   double mean = 0, stddev = 0;
-  bool known = false;  // more than half of the joints asked tell one
-  int joints = 0;      // that tell one
+  // More than half of the joints asked whose torque the model explains tell
+  // one; of what it does not explain nothing is known.
+  bool known = false;
+  int joints = 0;         // that tell one
+  bool is_alone = false;  // there is one that could
 
   // Whether the mean's interval of 95 % lies beyond that, on either side.
   bool IsBeyond(double least) const;
