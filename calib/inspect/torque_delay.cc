@@ -25,10 +25,10 @@ constexpr double kOfInterval = 1.96;  // standard deviations, of 95 %
 constexpr double kLeastLeft = 1e-4;
 // Of the torque's squares: what leaves more explains less than it leaves, and
 // when a torque was recorded that no model explains, none tells.
-constexpr double kMostLeft = .5;
+constexpr double kMostUnexplained = .5;
 // Each of which is left out once. One event, such as a single step or the only
 // time that a joint turns round, lies in one or two of them.
-constexpr int kStretches = 8;
+constexpr int kDelayStretches = 8;
 
 struct ToldDelay {
   double delay, variance;
@@ -58,7 +58,7 @@ class JointProfile {
     return .5 * kIndependent * (sum.array() + kLeastLeft).log().matrix();
   }
   bool IsExplained() const {
-    return left_.rowwise().sum().minCoeff() < kMostLeft;
+    return left_.rowwise().sum().minCoeff() < kMostUnexplained;
   }
 
   // Nothing where it does not rise on both sides within what was searched, with
@@ -69,8 +69,8 @@ class JointProfile {
   std::optional<ToldDelay> Delay() const {
     std::optional<ToldDelay> all = OfWidth(Nats());
     if (!all) return std::nullopt;
-    VectorXd without(kStretches);
-    for (int b = 0; b < kStretches; ++b) {
+    VectorXd without(kDelayStretches);
+    for (int b = 0; b < kDelayStretches; ++b) {
       const VectorXd nats = Nats(b);
       Eigen::Index k = 0;
       nats.minCoeff(&k);
@@ -78,8 +78,8 @@ class JointProfile {
       without[b] = LowestDelay(nats, k);
     }
     const double squares = (without.array() - without.mean()).square().sum();
-    all->variance =
-        std::max(all->variance, squares * (kStretches - 1) / kStretches);
+    all->variance = std::max(all->variance,
+                             squares * (kDelayStretches - 1) / kDelayStretches);
     return all;
   }
 
@@ -130,7 +130,7 @@ std::vector<JointProfile> Profiles(
     const TorqueFit& fit, const std::function<MatrixXd(double)>& torques,
     Eigen::Index joints) {
   constexpr int kDelays = 2 * kDelaySteps + 1;
-  std::vector<MatrixXd> left(joints, MatrixXd(kDelays, kStretches));
+  std::vector<MatrixXd> left(joints, MatrixXd(kDelays, kDelayStretches));
   for (int k = 0; k < kDelays; ++k) {
     const MatrixXd tau = torques(DelayAt(k));
     const MatrixXd asked = fit.InMotion(tau);
@@ -139,9 +139,9 @@ std::vector<JointProfile> Profiles(
     const Eigen::Index size = tau.rows();
     for (Eigen::Index j = 0; j < joints; ++j) {
       const double all = asked.col(j).squaredNorm() + 1e-18;
-      for (int b = 0; b < kStretches; ++b) {
-        const Eigen::Index begin = b * size / kStretches;
-        const Eigen::Index end = (b + 1) * size / kStretches;
+      for (int b = 0; b < kDelayStretches; ++b) {
+        const Eigen::Index begin = b * size / kDelayStretches;
+        const Eigen::Index end = (b + 1) * size / kDelayStretches;
         left[j](k, b) = squares.col(j).segment(begin, end - begin).sum() / all;
       }
     }

@@ -17,13 +17,14 @@ constexpr double kRightColumns = 100;
 // So few visits are of no distribution.
 constexpr int kFewVisits = 4;
 // Between a fifth and its neighbours, 1/25 and sqrt(1/5): the geometric means.
-constexpr double kLeastShare = .09, kMostShare = .3;
+constexpr double kLeastFoldShare = .09, kMostFoldShare = .3;
 
 }  // namespace
 
 bool Folds::HaveLostSign(int columns, int agree) const {
   return visits + agree > std::log2(kRightColumns * columns) &&
-         visits > kFewVisits && share > kLeastShare && share < kMostShare;
+         visits > kFewVisits && share > kLeastFoldShare &&
+         share < kMostFoldShare;
 }
 
 Folds FindFolds(const VectorXd& torque, const VectorXd& speed) {
