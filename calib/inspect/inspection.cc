@@ -119,7 +119,7 @@ class Inspector {
     for (VectorXd* figure :
          {&result_.travel, &result_.top_speed, &result_.tracking_rms}) {
       for (int j = 0; j < figure->size(); ++j) {
-        (*figure)[j] *= units.Of(robot_.links[j].joint);
+        (*figure)[j] *= units.Of(robot_.links[j].joint, j);
       }
     }
   }
@@ -381,7 +381,7 @@ Log Mended(const Robot& robot, const Log& recorded,
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.position_column[j];
     const double sign = reading.wiring.position_sign[j];
-    const double unit = reading.units.Of(robot.links[j].joint);
+    const double unit = reading.units.Of(robot.links[j].joint, from);
     const bool as_it_is = !inspection.velocity_as_it_is.empty() &&
                           inspection.velocity_as_it_is[from];
     const double of_velocity = as_it_is ? 1 : unit;

@@ -85,11 +85,28 @@ class Reader {
       }
     }
     AddTorqueUnit(state_.best, state_.ScalesOf(state_.best), Asked(), &all);
-    for (Candidate& candidate : UnitCandidates(state_.best, state_.robot)) {
+    for (Candidate& candidate :
+         UnitCandidates(state_.best, state_.robot, Asked())) {
       all.push_back(std::move(candidate));
     }
     all.push_back(BestDelay());
     return all;
+  }
+
+  // What has the hint may be one column alone that is beyond its limits, if
+  // torques say so clearly.
+  Candidate AllOrOne(Kind kind) const {
+    Candidate best = InOtherUnit(state_.best, kind);
+    double least = state_.Misfit(best.reading) - kLeastReadingGain;
+    for (const Candidate& one :
+         OneInOtherUnit(state_.best, kind, state_.robot, Asked())) {
+      if (!BringsInReach(state_, one)) continue;
+      const double misfit = state_.Misfit(one.reading);
+      if (misfit >= least) continue;
+      least = misfit;
+      best = one;
+    }
+    return best;
   }
 
   // What a unit that has a hint leaves has to be less; no more is asked, as the
@@ -102,7 +119,7 @@ class Reader {
         {Kind::kMillimetres, hints_.units.millimetres}};
     for (const auto& [kind, hint] : hinted) {
       if (hint.evidence.empty()) continue;
-      Candidate candidate = InOtherUnit(state_.best, kind);
+      Candidate candidate = AllOrOne(kind);
       candidate.change.hint = hint.evidence;
       const HeldOutFit held_out = state_.HeldOut(candidate.reading);
       const bool objects =

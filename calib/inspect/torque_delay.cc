@@ -23,9 +23,6 @@ constexpr double kTwoDeviations = 2;
 constexpr double kOfInterval = 1.96;  // standard deviations, of 95 %
 // Of the torque's squares: no model leaves less than 1 % of the torque.
 constexpr double kLeastLeft = 1e-4;
-// Of the torque's squares: what leaves more explains less than it leaves, and
-// when a torque was recorded that no model explains, none tells.
-constexpr double kMostUnexplained = .5;
 // Each of which is left out once. One event, such as a single step or the only
 // time that a joint turns round, lies in one or two of them.
 constexpr int kDelayStretches = 8;
@@ -52,39 +49,10 @@ class JointProfile {
   // Squares over those of the torque, delays x stretches.
   explicit JointProfile(MatrixXd left) : left_(std::move(left)) {}
 
-  VectorXd Nats(int without = -1) const {
-    VectorXd sum = left_.rowwise().sum();
-    if (without >= 0) sum -= left_.col(without);
-    return .5 * kIndependent * (sum.array() + kLeastLeft).log().matrix();
-  }
-  bool IsExplained() const {
-    return left_.rowwise().sum().minCoeff() < kMostUnexplained;
-  }
-
-  // Nothing where it does not rise on both sides within what was searched, with
-  // all stretches or without one of them. Its variance is that of the profile's
-  // width or that of the delete-one jackknife over the stretches (Tukey 1958),
-  // whichever is more: a delay that one stretch decides is not told by the
-  // others.
-  std::optional<ToldDelay> Delay() const {
-    std::optional<ToldDelay> all = OfWidth(Nats());
-    if (!all) return std::nullopt;
-    VectorXd without(kDelayStretches);
-    for (int b = 0; b < kDelayStretches; ++b) {
-      const VectorXd nats = Nats(b);
-      Eigen::Index k = 0;
-      nats.minCoeff(&k);
-      if (!IsInside(nats, k)) return std::nullopt;
-      without[b] = LowestDelay(nats, k);
-    }
-    const double squares = (without.array() - without.mean()).square().sum();
-    all->variance = std::max(all->variance,
-                             squares * (kDelayStretches - 1) / kDelayStretches);
-    return all;
-  }
-
- private:
-  static std::optional<ToldDelay> OfWidth(const VectorXd& nats) {
+  // Of all stretches but one (-1: of all); nothing where it does not rise on
+  // both sides within what was searched.
+  std::optional<ToldDelay> Delay(int without) const {
+    const VectorXd nats = Nats(without);
     Eigen::Index k = 0;
     const double least = nats.minCoeff(&k);
     if (!IsInside(nats, k)) return std::nullopt;
@@ -96,10 +64,17 @@ class JointProfile {
     return ToldDelay{LowestDelay(nats, k), stddev * stddev};
   }
 
+ private:
+  VectorXd Nats(int without) const {
+    VectorXd sum = left_.rowwise().sum();
+    if (without >= 0) sum -= left_.col(without);
+    return .5 * kIndependent * (sum.array() + kLeastLeft).log().matrix();
+  }
+
   MatrixXd left_;
 };
 
-void SetMean(const std::vector<ToldDelay>& told, TorqueDelay* result) {
+void SetMeanOf(const std::vector<ToldDelay>& told, TorqueDelay* result) {
   const auto mean = [&](double scatter, double* weights) {
     double product = 0;
     *weights = 0;
@@ -149,6 +124,26 @@ std::vector<JointProfile> Profiles(
   return {left.begin(), left.end()};
 }
 
+// What the joints say of all stretches but one, or of all (-1).
+TorqueDelay WithoutStretch(int stretch,
+                           const std::vector<JointProfile>& profiles,
+                           const std::vector<bool>& asked) {
+  std::vector<ToldDelay> told;
+  for (size_t j = 0; j < asked.size(); ++j) {
+    if (!asked[j]) continue;
+    if (const auto one = profiles[j].Delay(stretch)) told.push_back(*one);
+  }
+  TorqueDelay result;
+  result.joints = static_cast<int>(told.size());
+  const auto of =
+      static_cast<int>(std::count(asked.begin(), asked.end(), true));
+  result.is_alone = of == 1;
+  result.known =
+      (result.is_alone || result.joints > 1) && 2 * result.joints > of;
+  if (result.known) SetMeanOf(told, &result);
+  return result;
+}
+
 }  // namespace
 
 bool TorqueDelay::IsBeyond(double least) const {
@@ -158,20 +153,18 @@ bool TorqueDelay::IsBeyond(double least) const {
 TorqueDelay FindTorqueDelay(const TorqueFit& fit,
                             const std::function<MatrixXd(double)>& torques,
                             const std::vector<bool>& asked) {
-  const auto n = static_cast<Eigen::Index>(asked.size());
-  TorqueDelay result;
-  std::vector<ToldDelay> told;
-  int explained = 0;
-  const std::vector<JointProfile> profiles = Profiles(fit, torques, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    if (!asked[j] || !profiles[j].IsExplained()) continue;
-    ++explained;
-    if (const auto one = profiles[j].Delay()) told.push_back(*one);
+  const auto profiles =
+      Profiles(fit, torques, static_cast<Eigen::Index>(asked.size()));
+  TorqueDelay result = WithoutStretch(-1, profiles, asked);
+  double squares = 0;
+  for (int b = 0; result.known && b < kDelayStretches; ++b) {
+    const TorqueDelay others = WithoutStretch(b, profiles, asked);
+    result.known = others.known;
+    squares += std::pow(others.mean - result.mean, 2);
   }
-  result.joints = static_cast<int>(told.size());
-  result.is_alone = explained == 1;
-  result.known = !told.empty() && 2 * result.joints > explained;
-  if (result.known) SetMean(told, &result);
+  result.stddev =
+      std::max(result.stddev,
+               std::sqrt(squares * (kDelayStretches - 1) / kDelayStretches));
   return result;
 }
 

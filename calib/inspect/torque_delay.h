@@ -14,13 +14,16 @@ namespace armcal {
 // well a delay is known.
 struct TorqueDelay {
   // Of the joints' delays, each with its own error and a scatter that they
-  // have in common (DerSimonian and Laird 1986).
+  // have in common (DerSimonian and Laird 1986). The deviation is that, or that
+  // of the mean without each of eight stretches of the motion, by the
+  // delete-one jackknife (Tukey 1958), whichever is more: what one event
+  // decides, such as a single step or the only time that a joint turns round,
+  // the others do not tell.
   double mean = 0, stddev = 0;
-  // More than half of the joints asked whose torque the model explains tell
-  // one; of what it does not explain nothing is known.
+  // More than half of the joints asked tell one, without any of the stretches.
   bool known = false;
   int joints = 0;         // that tell one
-  bool is_alone = false;  // there is one that could
+  bool is_alone = false;  // one is asked, and has none to agree with
 
   // Whether the mean's interval of 95 % lies beyond that, on either side.
   bool IsBeyond(double least) const;
