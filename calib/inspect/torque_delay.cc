@@ -138,8 +138,10 @@ TorqueDelay WithoutStretch(int stretch,
   const auto of =
       static_cast<int>(std::count(asked.begin(), asked.end(), true));
   result.is_alone = of == 1;
-  result.known =
-      (result.is_alone || result.joints > 1) && 2 * result.joints > of;
+  // Most of those asked have to tell one, of all stretches; without one of
+  // them, as many as can agree.
+  result.known = (result.is_alone ? result.joints == 1 : result.joints > 1) &&
+                 (stretch >= 0 || 2 * result.joints > of);
   if (result.known) SetMeanOf(told, &result);
   return result;
 }
@@ -147,7 +149,8 @@ TorqueDelay WithoutStretch(int stretch,
 }  // namespace
 
 bool TorqueDelay::IsBeyond(double least) const {
-  return known && std::abs(mean) - kOfInterval * stddev > least;
+  return known && std::abs(mean) - kOfInterval * stddev > least &&
+         weakest > least;
 }
 
 TorqueDelay FindTorqueDelay(const TorqueFit& fit,
@@ -156,15 +159,13 @@ TorqueDelay FindTorqueDelay(const TorqueFit& fit,
   const auto profiles =
       Profiles(fit, torques, static_cast<Eigen::Index>(asked.size()));
   TorqueDelay result = WithoutStretch(-1, profiles, asked);
-  double squares = 0;
+  const double side = result.mean < 0 ? -1 : 1;
+  result.weakest = std::abs(result.mean);
   for (int b = 0; result.known && b < kDelayStretches; ++b) {
     const TorqueDelay others = WithoutStretch(b, profiles, asked);
     result.known = others.known;
-    squares += std::pow(others.mean - result.mean, 2);
+    result.weakest = std::min(result.weakest, side * others.mean);
   }
-  result.stddev =
-      std::max(result.stddev,
-               std::sqrt(squares * (kDelayStretches - 1) / kDelayStretches));
   return result;
 }
 

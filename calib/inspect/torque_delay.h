@@ -14,18 +14,20 @@ namespace armcal {
 // well a delay is known.
 struct TorqueDelay {
   // Of the joints' delays, each with its own error and a scatter that they
-  // have in common (DerSimonian and Laird 1986). The deviation is that, or that
-  // of the mean without each of eight stretches of the motion, by the
-  // delete-one jackknife (Tukey 1958), whichever is more: what one event
-  // decides, such as a single step or the only time that a joint turns round,
-  // the others do not tell.
+  // have in common (DerSimonian and Laird 1986).
   double mean = 0, stddev = 0;
-  // More than half of the joints asked tell one, without any of the stretches.
+  // The mean without each of eight stretches of the motion, towards that side:
+  // the least. What one event decides, such as a single step or the only time
+  // that a joint turns round, the others do not tell.
+  double weakest = 0;
+  // More than half of the joints asked tell one, and two at least (of several)
+  // without any one of the stretches.
   bool known = false;
   int joints = 0;         // that tell one
   bool is_alone = false;  // one is asked, and has none to agree with
 
-  // Whether the mean's interval of 95 % lies beyond that, on either side.
+  // Whether the mean's interval of 95 % lies beyond that, on either side, and
+  // the mean without any of the stretches as well.
   bool IsBeyond(double least) const;
 };
 
