@@ -23,9 +23,10 @@ constexpr double kTwoDeviations = 2;
 constexpr double kOfInterval = 1.96;  // standard deviations, of 95 %
 // Of the torque's squares: no model leaves less than 1 % of the torque.
 constexpr double kLeastLeft = 1e-4;
-// Each of which is left out once. One event, such as a single step or the only
-// time that a joint turns round, lies in one or two of them.
-constexpr int kDelayStretches = 8;
+// Of the motion; two neighbours are left out at a time, an eighth, so that an
+// event of less than a piece, such as a single step or the only time that a
+// joint turns round, is left out with them wherever it lies.
+constexpr int kPieces = 16;
 
 struct ToldDelay {
   double delay, variance;
@@ -46,11 +47,11 @@ bool IsInside(const VectorXd& profile, Eigen::Index k) {
 // Of one joint: what fits leave of its torque, over delays.
 class JointProfile {
  public:
-  // Squares over those of the torque, delays x stretches.
+  // Squares over those of the torque, delays x pieces.
   explicit JointProfile(MatrixXd left) : left_(std::move(left)) {}
 
-  // Of all stretches but one (-1: of all); nothing where it does not rise on
-  // both sides within what was searched.
+  // Of all pieces but two neighbours, the first of them given (-1: of all);
+  // nothing where it does not rise on both sides within what was searched.
   std::optional<ToldDelay> Delay(int without) const {
     const VectorXd nats = Nats(without);
     Eigen::Index k = 0;
@@ -67,7 +68,7 @@ class JointProfile {
  private:
   VectorXd Nats(int without) const {
     VectorXd sum = left_.rowwise().sum();
-    if (without >= 0) sum -= left_.col(without);
+    if (without >= 0) sum -= left_.middleCols(without, 2).rowwise().sum();
     return .5 * kIndependent * (sum.array() + kLeastLeft).log().matrix();
   }
 
@@ -105,7 +106,7 @@ std::vector<JointProfile> Profiles(
     const TorqueFit& fit, const std::function<MatrixXd(double)>& torques,
     Eigen::Index joints) {
   constexpr int kDelays = 2 * kDelaySteps + 1;
-  std::vector<MatrixXd> left(joints, MatrixXd(kDelays, kDelayStretches));
+  std::vector<MatrixXd> left(joints, MatrixXd(kDelays, kPieces));
   for (int k = 0; k < kDelays; ++k) {
     const MatrixXd tau = torques(DelayAt(k));
     const MatrixXd asked = fit.InMotion(tau);
@@ -114,9 +115,9 @@ std::vector<JointProfile> Profiles(
     const Eigen::Index size = tau.rows();
     for (Eigen::Index j = 0; j < joints; ++j) {
       const double all = asked.col(j).squaredNorm() + 1e-18;
-      for (int b = 0; b < kDelayStretches; ++b) {
-        const Eigen::Index begin = b * size / kDelayStretches;
-        const Eigen::Index end = (b + 1) * size / kDelayStretches;
+      for (int b = 0; b < kPieces; ++b) {
+        const Eigen::Index begin = b * size / kPieces;
+        const Eigen::Index end = (b + 1) * size / kPieces;
         left[j](k, b) = squares.col(j).segment(begin, end - begin).sum() / all;
       }
     }
@@ -124,24 +125,23 @@ std::vector<JointProfile> Profiles(
   return {left.begin(), left.end()};
 }
 
-// What the joints say of all stretches but one, or of all (-1).
-TorqueDelay WithoutStretch(int stretch,
-                           const std::vector<JointProfile>& profiles,
-                           const std::vector<bool>& asked) {
+// What the joints say of all pieces but two neighbours, or of all (-1).
+TorqueDelay WithoutPieces(int first, const std::vector<JointProfile>& profiles,
+                          const std::vector<bool>& asked) {
   std::vector<ToldDelay> told;
   for (size_t j = 0; j < asked.size(); ++j) {
     if (!asked[j]) continue;
-    if (const auto one = profiles[j].Delay(stretch)) told.push_back(*one);
+    if (const auto one = profiles[j].Delay(first)) told.push_back(*one);
   }
   TorqueDelay result;
   result.joints = static_cast<int>(told.size());
   const auto of =
       static_cast<int>(std::count(asked.begin(), asked.end(), true));
   result.is_alone = of == 1;
-  // Most of those asked have to tell one, of all stretches; without one of
+  // Most of those asked have to tell one, of all pieces; without some of
   // them, as many as can agree.
   result.known = (result.is_alone ? result.joints == 1 : result.joints > 1) &&
-                 (stretch >= 0 || 2 * result.joints > of);
+                 (first >= 0 || 2 * result.joints > of);
   if (result.known) SetMeanOf(told, &result);
   return result;
 }
@@ -158,11 +158,11 @@ TorqueDelay FindTorqueDelay(const TorqueFit& fit,
                             const std::vector<bool>& asked) {
   const auto profiles =
       Profiles(fit, torques, static_cast<Eigen::Index>(asked.size()));
-  TorqueDelay result = WithoutStretch(-1, profiles, asked);
+  TorqueDelay result = WithoutPieces(-1, profiles, asked);
   const double side = result.mean < 0 ? -1 : 1;
   result.weakest = std::abs(result.mean);
-  for (int b = 0; result.known && b < kDelayStretches; ++b) {
-    const TorqueDelay others = WithoutStretch(b, profiles, asked);
+  for (int b = 0; result.known && b + 1 < kPieces; ++b) {
+    const TorqueDelay others = WithoutPieces(b, profiles, asked);
     result.known = others.known;
     result.weakest = std::min(result.weakest, side * others.mean);
   }

@@ -70,15 +70,15 @@ TEST_F(TorqueDelayTest, BeyondWhatIsSearchedIsNotKnown) {
 }
 
 // A joint about an upright axis at 1 rad/s, which turns round so many times in
-// 20 s: between that its torque is constant, and any delay fits.
+// 4 s: between that its torque is constant, and any delay fits.
 class TurningJointTest : public TorqueDelayTest {
  protected:
   TurningJointTest() {
-    arm_ = InspectedArm("PUMA560 6R", 20, 1);
+    arm_ = InspectedArm("PUMA560 6R", 4, 1);
     asked_ = {true};
   }
   void Turn(int times) {
-    const double period = 20. / times;
+    const double period = 4. / times;
     for (int k = 0; k < arm_.log.size(); ++k) {
       const double phase = M_PI * (arm_.log.t[k] / period - .5);
       const double slope = std::tanh(std::cos(phase + M_PI / 2) * -9);
@@ -93,7 +93,7 @@ class TurningJointTest : public TorqueDelayTest {
 };
 
 TEST_F(TurningJointTest, ManyTurnsTell) {
-  Turn(20);
+  Turn(12);
   const TorqueDelay late = Find();
   EXPECT_TRUE(late.is_alone);
   EXPECT_NEAR(late.mean, .03, .01);
