@@ -22,10 +22,13 @@ bool ExplainsMost(const HeldOutFit& as_is, const HeldOutFit& changed) {
 
 bool BringsInReach(const ReadingState& state, const Candidate& candidate) {
   const std::vector<int> joints = JointsOf(candidate.change);
+  // Speeds are of the clock as much as of a unit.
+  const bool asks_speed = candidate.change.kind != Kind::kDegrees &&
+                          candidate.change.kind != Kind::kMillimetres;
   return !joints.empty() && candidate.change.kind != Kind::kTorqueSign &&
          candidate.change.kind != Kind::kTorquesExchanged &&
-         !state.AreInReach(state.best, joints) &&
-         state.AreInReach(candidate.reading, joints);
+         !state.AreInReach(state.best, joints, asks_speed) &&
+         state.AreInReach(candidate.reading, joints, asks_speed);
 }
 
 bool IsConfirmed(const ReadingState& state, const Candidate& candidate,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace armcal {
@@ -56,7 +57,8 @@ TorqueScales ReadingState::ScalesOf(LogReading reading) const {
 }
 
 bool ReadingState::AreInReach(const LogReading& reading,
-                              const std::vector<int>& joints) const {
+                              const std::vector<int>& joints,
+                              bool asks_speed) const {
   const Motion motion =
       SamplesAs(reading, robot, series, kHeldOutSamples).motion;
   return std::all_of(joints.begin(), joints.end(), [&](int j) {
@@ -65,9 +67,11 @@ bool ReadingState::AreInReach(const LogReading& reading,
                               ? kOvershoot * (joint.upper - joint.lower)
                               : 0;
     const auto q = motion.q.col(j).array();
+    const double top = asks_speed ? (1 + kOvershoot) * joint.velocity
+                                  : std::numeric_limits<double>::infinity();
     const auto speed = motion.qd.col(j).array().abs();
-    const auto beyond = q < joint.lower - margin || q > joint.upper + margin ||
-                        speed > (1 + kOvershoot) * joint.velocity;
+    const auto beyond =
+        q < joint.lower - margin || q > joint.upper + margin || speed > top;
     return static_cast<double>(beyond.count()) <= kOutOfReach * motion.size();
   });
 }
