@@ -1,5 +1,9 @@
 #include "calib/inspect/reading_confirmation.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "calib/inspect/robot_description.h"
 #include "calib/inspect/torque_scale.h"
 
 namespace armcal {
@@ -11,11 +15,34 @@ using Kind = ReadingChange::Kind;
 // either side, agree within two deviations of each, some 10 ms, in a fourth of
 // the cases where there are two, and in a sixteenth where there are three.
 constexpr int kFewWhoAgree = 2;
+constexpr double kParallel = .999;  // cosine of the axes' angle
 
 // Whether more than half of the squares that are left as it is are gone, in
 // both halves and all samples.
 bool ExplainsMost(const HeldOutFit& as_is, const HeldOutFit& changed) {
   return (2 * changed.all.array() < as_is.all.array()).all();
+}
+
+// Whether two joints turn about axes that are parallel in all postures, as
+// joints between them do, too: what of the motion is in the one's angle may be
+// in the other's.
+bool TurnAlike(const Robot& robot, int a, int b) {
+  const std::vector<Eigen::Vector3d> axes = AxesAtZero(robot);
+  const int first = std::min(a, b);
+  for (int j = std::max(a, b); j >= first; j = robot.parent(j)) {
+    if (!IsRotational(robot.links[j].joint.type) ||
+        !(std::abs(axes[j].dot(axes[first])) > kParallel)) {
+      return false;
+    }
+    if (j == first) return true;
+  }
+  return false;  // on another branch
+}
+
+bool AreSignsOfParallelJoints(const Robot& robot, const ReadingChange& a,
+                              const ReadingChange& b) {
+  return a.kind == Kind::kPositionSign && b.kind == Kind::kPositionSign &&
+         a.joint != b.joint && TurnAlike(robot, a.joint, b.joint);
 }
 
 }  // namespace
@@ -78,7 +105,8 @@ std::vector<ReadingChange> AlternativesTo(size_t k, const HeldOutFit& held_out,
   std::vector<ReadingChange> alternatives;
   for (size_t i = 0; i < all.size(); ++i) {
     const ReadingChange& other = all[i].change;
-    if (!MayBeEither(other, change) ||
+    if ((!MayBeEither(other, change) &&
+         !AreSignsOfParallelJoints(state.robot, other, change)) ||
         all[i].reading.gravity != all[k].reading.gravity) {
       continue;
     }

@@ -93,4 +93,20 @@ TEST(ReadingConfirmation, LimitsTellAnOrder) {
   EXPECT_FALSE(is_confirmed(Kind::kExchanged, .99));
 }
 
+// The PUMA's second and third axis are parallel, its first is not: where both
+// signs fit alike, the one is told beside the other.
+TEST(ReadingConfirmation, SignsOfParallelJointsAreToldBeside) {
+  const InspectedArm arm;
+  const UniformSeries series(arm.log, .01, .05, 8);
+  const ReadingState state(arm.robot, series);
+  std::vector<Candidate> all;
+  for (int j = 0; j < 3; ++j) {
+    all.push_back({state.best, {Kind::kPositionSign, j}});
+  }
+  const auto beside =
+      AlternativesTo(1, state.held_out, {-100, -100, -100}, all, state);
+  ASSERT_EQ(beside.size(), 1u);
+  EXPECT_EQ(beside[0].joint, 2);
+}
+
 }  // namespace armcal::reading_confirmation_test
