@@ -51,6 +51,7 @@ set(rooms
     calib/diagnose/select      # which of them do
     calib/diagnose/judge       # what held-out data say of them
     calib/diagnose      # the diagnosis as a whole and its files
+    calib/inspect/columns # what a column shows without a model of the arm
     calib/inspect       # what a log or robot file holds and what is wrong
     calib/compare       # whether results of one robot agree within noise
     calib/watch         # a running log against a calibration, sample by sample

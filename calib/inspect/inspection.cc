@@ -119,7 +119,7 @@ class Inspector {
     for (VectorXd* figure :
          {&result_.travel, &result_.top_speed, &result_.tracking_rms}) {
       for (int j = 0; j < figure->size(); ++j) {
-        (*figure)[j] *= units.Of(robot_.links[j].joint);
+        (*figure)[j] *= units.Of(robot_.links[j].joint, j);
       }
     }
   }
@@ -336,20 +336,9 @@ class Inspector {
     robot.gravity = result_.reading.gravity;
     const WiringSamples samples =
         SamplesAs(result_.reading, robot_, series, kSamples);
-    for (const UnsignedTorque& lost :
-         FindUnsignedTorques(robot, samples, joints)) {
-      InspectionFinding finding{
-          "unsigned_torque",
-          "the torque of " + robot_.links[lost.joint].joint.name +
-              " has lost its sign",
-          Format("of its size, held out, a fit leaves %.3g %% as logged and "
-                 "%.3g %% with both signs, the other in %.0f %% of the samples",
-                 lost.before, lost.after,
-                 100 * std::min(lost.turned, 1 - lost.turned)),
-          "log the torque with its sign", lost.joint};
-      finding.held_out_before = lost.before;
-      finding.held_out_after = lost.after;
-      DropSigns(lost.joint);
+    for (const InspectionFinding& finding :
+         UnsignedFindings(robot, series, log_, samples, joints)) {
+      DropSigns(finding.joint);
       result_.findings.push_back(finding);
     }
   }
@@ -392,7 +381,7 @@ Log Mended(const Robot& robot, const Log& recorded,
   for (int j = 0; j < robot.num_joints(); ++j) {
     const int from = reading.wiring.position_column[j];
     const double sign = reading.wiring.position_sign[j];
-    const double unit = reading.units.Of(robot.links[j].joint);
+    const double unit = reading.units.Of(robot.links[j].joint, from);
     const bool as_it_is = !inspection.velocity_as_it_is.empty() &&
                           inspection.velocity_as_it_is[from];
     const double of_velocity = as_it_is ? 1 : unit;

@@ -85,11 +85,28 @@ class Reader {
       }
     }
     AddTorqueUnit(state_.best, state_.ScalesOf(state_.best), Asked(), &all);
-    for (Candidate& candidate : UnitCandidates(state_.best, state_.robot)) {
+    for (Candidate& candidate :
+         UnitCandidates(state_.best, state_.robot, Asked())) {
       all.push_back(std::move(candidate));
     }
     all.push_back(BestDelay());
     return all;
+  }
+
+  // What has the hint may be one column alone that is beyond its limits, if
+  // torques say so clearly.
+  Candidate AllOrOne(Kind kind) const {
+    Candidate best = InOtherUnit(state_.best, kind);
+    double least = state_.Misfit(best.reading) - kLeastReadingGain;
+    for (const Candidate& one :
+         OneInOtherUnit(state_.best, kind, state_.robot, Asked())) {
+      if (!BringsInReach(state_, one)) continue;
+      const double misfit = state_.Misfit(one.reading);
+      if (misfit >= least) continue;
+      least = misfit;
+      best = one;
+    }
+    return best;
   }
 
   // What a unit that has a hint leaves has to be less; no more is asked, as the
@@ -102,7 +119,7 @@ class Reader {
         {Kind::kMillimetres, hints_.units.millimetres}};
     for (const auto& [kind, hint] : hinted) {
       if (hint.evidence.empty()) continue;
-      Candidate candidate = InOtherUnit(state_.best, kind);
+      Candidate candidate = AllOrOne(kind);
       candidate.change.hint = hint.evidence;
       const HeldOutFit held_out = state_.HeldOut(candidate.reading);
       const bool objects =
@@ -179,6 +196,9 @@ class Reader {
             const std::vector<double>& misfits, std::vector<Candidate>* all) {
     (*all)[k].change.alternatives =
         AlternativesTo(k, held_out, misfits, *all, state_);
+    if (BringsInReach(state_, (*all)[k])) {
+      (*all)[k].change.hint = "as logged they are beyond the file's limits";
+    }
     double sum = 0;
     for (const double misfit : misfits) sum += std::exp(misfits[k] - misfit);
     state_.Accept((*all)[k], misfits[k], std::min(1., 1 / sum), held_out);
@@ -206,13 +226,8 @@ class Reader {
           return state_.SamplesOf(at).tau;
         },
         asked);
-    const bool is_alone = std::count(asked.begin(), asked.end(), true) == 1;
-    state_.joints_of_delay = is_alone ? 1 : found.joints;
-    if (found.IsBeyond(kLeastDelay)) {
-      best.reading.delay = found.mean;
-    } else if (is_alone && found.inside && std::abs(found.best) > kLeastDelay) {
-      best.reading.delay = found.best;
-    }
+    state_.joints_of_delay = found.is_alone ? 1 : found.joints;
+    if (found.IsBeyond(kLeastDelay)) best.reading.delay = found.mean;
     return best;
   }
 

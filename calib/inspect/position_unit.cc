@@ -14,9 +14,9 @@ namespace {
 using Eigen::VectorXd;
 
 // Whether a joint's velocity is the slope of its position in these units.
-bool IsRightIn(const PositionUnits& units, const Joint& joint,
+bool IsRightIn(const PositionUnits& units, const Joint& joint, int column,
                VelocityFit fit) {
-  fit.factor /= units.Of(joint);
+  fit.factor /= units.Of(joint, column);
   return fit.right();
 }
 
@@ -25,7 +25,8 @@ bool FollowsFrom(const PositionUnits& units, const Robot& robot, const Log& log,
                  const InspectionFinding& finding) {
   if (finding.finding != "velocity") return false;
   const auto fit = FitVelocity(log, finding.joint);
-  return fit && IsRightIn(units, robot.links[finding.joint].joint, *fit);
+  return fit && IsRightIn(units, robot.links[finding.joint].joint,
+                          finding.joint, *fit);
 }
 
 // What a hundredth of the values is beyond, in size.
@@ -63,7 +64,7 @@ class Hints {
 
  private:
   bool Concerns(const PositionUnits& units, int j) const {
-    return units.Of(robot_.links[j].joint) != 1;
+    return units.Of(robot_.links[j].joint, j) != 1;
   }
   // All velocities that tell are right in these units, and one is not as
   // logged.
@@ -71,7 +72,8 @@ class Hints {
     bool any = false;
     for (int j = 0; j < robot_.num_joints(); ++j) {
       if (!Concerns(units, j) || !velocity_[j]) continue;
-      if (!IsRightIn(units, robot_.links[j].joint, *velocity_[j])) return false;
+      if (!IsRightIn(units, robot_.links[j].joint, j, *velocity_[j]))
+        return false;
       any |= !velocity_[j]->right();
     }
     return any;
@@ -96,7 +98,7 @@ class Hints {
     for (int j = 0; j < robot_.num_joints(); ++j) {
       if (!Concerns(units, j) || IsAlone(units, j)) continue;
       const Joint& joint = robot_.links[j].joint;
-      const double unit = units.Of(joint), least = 1 / std::sqrt(unit);
+      const double unit = units.Of(joint, j), least = 1 / std::sqrt(unit);
       const double positions = BeyondPositions(joint, log_.q.col(j));
       const double beyond =
           std::max(positions, ShareOf(joint.velocity, Most(qd_.col(j))));
@@ -118,7 +120,8 @@ class Hints {
 
 }  // namespace
 
-double PositionUnits::Of(const Joint& joint) const {
+double PositionUnits::Of(const Joint& joint, int from) const {
+  if (column >= 0 && column != from) return 1;
   if (IsRotational(joint.type)) return degrees ? kDegree : 1;
   return millimetres ? 1e-3 : 1;
 }

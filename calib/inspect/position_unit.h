@@ -16,8 +16,10 @@ struct PositionUnits {
   bool degrees = false;      // of joints that turn, not rad
   bool millimetres = false;  // of joints that slide, not m
 
-  // Of this joint, rad or m.
-  double Of(const Joint& joint) const;
+  int column = -1;  // of this column alone; -1: of all
+
+  // Of this joint, whose positions are in column `from`; rad or m.
+  double Of(const Joint& joint, int from) const;
   bool any() const { return degrees || millimetres; }
 };
 

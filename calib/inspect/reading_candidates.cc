@@ -73,11 +73,30 @@ Candidate InOtherUnit(const LogReading& from, Kind kind) {
   Candidate other{from, {kind}};
   PositionUnits& units = other.reading.units;
   (kind == Kind::kDegrees ? units.degrees : units.millimetres) ^= true;
+  units.column = -1;
   return other;
 }
 
+std::vector<Candidate> OneInOtherUnit(const LogReading& from, Kind kind,
+                                      const Robot& robot,
+                                      const std::vector<bool>& asked) {
+  std::vector<Candidate> all;
+  const auto n = static_cast<int>(asked.size());
+  // One that moves alone is all of them; beside a unit of all there is none.
+  if (n < 2 || from.units.any()) return all;
+  for (int j = 0; j < n; ++j) {
+    const bool turns = IsRotational(robot.links[j].joint.type);
+    if (!asked[j] || turns != (kind == Kind::kDegrees)) continue;
+    all.push_back(InOtherUnit(from, kind));
+    all.back().reading.units.column = from.wiring.position_column[j];
+    all.back().change.joint = j;
+  }
+  return all;
+}
+
 std::vector<Candidate> UnitCandidates(const LogReading& from,
-                                      const Robot& robot) {
+                                      const Robot& robot,
+                                      const std::vector<bool>& asked) {
   bool turns = false, slides = false;
   for (const Link& link : robot.links) {
     (IsRotational(link.joint.type) ? turns : slides) = true;
@@ -85,6 +104,11 @@ std::vector<Candidate> UnitCandidates(const LogReading& from,
   std::vector<Candidate> all;
   if (turns) all.push_back(InOtherUnit(from, Kind::kDegrees));
   if (slides) all.push_back(InOtherUnit(from, Kind::kMillimetres));
+  for (const Kind kind : {Kind::kDegrees, Kind::kMillimetres}) {
+    for (Candidate& one : OneInOtherUnit(from, kind, robot, asked)) {
+      all.push_back(std::move(one));
+    }
+  }
   return all;
 }
 

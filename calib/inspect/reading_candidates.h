@@ -24,10 +24,17 @@ std::vector<Candidate> WiringCandidates(const LogReading& from,
 // Positions in the unit that `kind` (kDegrees, kMillimetres) names where they
 // are not, else in rad or m.
 Candidate InOtherUnit(const LogReading& from, ReadingChange::Kind kind);
+// The same of one of the joints that are asked and are of this kind each: a
+// column that came from elsewhere than the others.
+std::vector<Candidate> OneInOtherUnit(const LogReading& from,
+                                      ReadingChange::Kind kind,
+                                      const Robot& robot,
+                                      const std::vector<bool>& asked);
 
-// The same of both units, of joints that turn and slide, if there are some.
+// Both of both units, of joints that turn and slide, if there are some.
 std::vector<Candidate> UnitCandidates(const LogReading& from,
-                                      const Robot& robot);
+                                      const Robot& robot,
+                                      const std::vector<bool>& asked);
 
 // Torques that are divided by how many times those that the file's links need
 // they are, where no inertias near the file's would be (kNotInertia): alone,

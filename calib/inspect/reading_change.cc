@@ -27,7 +27,8 @@ WiringSamples SamplesAs(const LogReading& reading, const Robot& robot,
       Rewired(series.Pick(count, reading.delay), reading.wiring);
   samples.tau *= reading.torque_unit;
   for (int j = 0; reading.units.any() && j < robot.num_joints(); ++j) {
-    const double unit = reading.units.Of(robot.links[j].joint);
+    const double unit = reading.units.Of(robot.links[j].joint,
+                                         reading.wiring.position_column[j]);
     samples.motion.q.col(j) *= unit;
     samples.motion.qd.col(j) *= unit;
     samples.motion.qdd.col(j) *= unit;
@@ -103,6 +104,7 @@ bool MoveAlike(const LogReading& a, const LogReading& b) {
   return a.wiring.position_column == b.wiring.position_column &&
          a.wiring.position_sign == b.wiring.position_sign &&
          a.units.degrees == b.units.degrees &&
+         a.units.column == b.units.column &&
          a.units.millimetres == b.units.millimetres && a.gravity == b.gravity;
 }
 

@@ -1,14 +1,21 @@
 #include "calib/inspect/reading_confirmation.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "calib/inspect/robot_description.h"
 #include "calib/inspect/torque_scale.h"
 
 namespace armcal {
 namespace {
 
+using Kind = ReadingChange::Kind;
+
 // Delays that have nothing to do with each other, anywhere within the 80 ms to
 // either side, agree within two deviations of each, some 10 ms, in a fourth of
 // the cases where there are two, and in a sixteenth where there are three.
 constexpr int kFewWhoAgree = 2;
+constexpr double kParallel = .999;  // cosine of the axes' angle
 
 // Whether more than half of the squares that are left as it is are gone, in
 // both halves and all samples.
@@ -16,11 +23,43 @@ bool ExplainsMost(const HeldOutFit& as_is, const HeldOutFit& changed) {
   return (2 * changed.all.array() < as_is.all.array()).all();
 }
 
+// Whether two joints turn about axes that are parallel in all postures, as
+// joints between them do, too: what of the motion is in the one's angle may be
+// in the other's.
+bool TurnAlike(const Robot& robot, int a, int b) {
+  const std::vector<Eigen::Vector3d> axes = AxesAtZero(robot);
+  const int first = std::min(a, b);
+  for (int j = std::max(a, b); j >= first; j = robot.parent(j)) {
+    if (!IsRotational(robot.links[j].joint.type) ||
+        !(std::abs(axes[j].dot(axes[first])) > kParallel)) {
+      return false;
+    }
+    if (j == first) return true;
+  }
+  return false;  // on another branch
+}
+
+bool AreSignsOfParallelJoints(const Robot& robot, const ReadingChange& a,
+                              const ReadingChange& b) {
+  return a.kind == Kind::kPositionSign && b.kind == Kind::kPositionSign &&
+         a.joint != b.joint && TurnAlike(robot, a.joint, b.joint);
+}
+
 }  // namespace
+
+bool BringsInReach(const ReadingState& state, const Candidate& candidate) {
+  const std::vector<int> joints = JointsOf(candidate.change);
+  // Speeds are of the clock as much as of a unit.
+  const bool asks_speed = candidate.change.kind != Kind::kDegrees &&
+                          candidate.change.kind != Kind::kMillimetres;
+  return !joints.empty() && candidate.change.kind != Kind::kTorqueSign &&
+         candidate.change.kind != Kind::kTorquesExchanged &&
+         !state.AreInReach(state.best, joints, asks_speed) &&
+         state.AreInReach(candidate.reading, joints, asks_speed);
+}
 
 bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
                  const HeldOutFit& as_is, const HeldOutFit& held_out) {
-  using Kind = ReadingChange::Kind;
   const ReadingChange& change = candidate.change;
   const bool all_fit_better = IsBetterForAll(
       OfColumns(as_is, state.best.wiring.torque_column),
@@ -42,6 +81,8 @@ bool IsConfirmed(const ReadingState& state, const Candidate& candidate,
       state.ScalesOf(state.best).AreOpposite() && leaves_less) {
     return true;
   }
+  // As of a unit: where limits tell, torques only have to fit better.
+  if (leaves_less && BringsInReach(state, candidate)) return true;
   // Columns of single joints stand in the motion of all: what is wrong with
   // them shows in the torques of others, too. That of a joint which hardly
   // works may fit better by chance, and a direction of gravity or a unit is
@@ -64,7 +105,8 @@ std::vector<ReadingChange> AlternativesTo(size_t k, const HeldOutFit& held_out,
   std::vector<ReadingChange> alternatives;
   for (size_t i = 0; i < all.size(); ++i) {
     const ReadingChange& other = all[i].change;
-    if (!MayBeEither(other, change) ||
+    if ((!MayBeEither(other, change) &&
+         !AreSignsOfParallelJoints(state.robot, other, change)) ||
         all[i].reading.gravity != all[k].reading.gravity) {
       continue;
     }

@@ -9,6 +9,10 @@
 
 namespace armcal {
 
+// Whether joints that are beyond the file's limits as it is are within them
+// otherwise, as another's positions or as turned round.
+bool BringsInReach(const ReadingState& state, const Candidate& candidate);
+
 // Whether torques that a fit has not seen say that the candidate, whose fit is
 // `held_out`, reads the log better than the state's best, whose is `as_is`.
 bool IsConfirmed(const ReadingState& state, const Candidate& candidate,

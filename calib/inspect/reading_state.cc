@@ -1,6 +1,8 @@
 #include "calib/inspect/reading_state.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace armcal {
@@ -9,6 +11,9 @@ namespace {
 // Of 7 joints or fewer; the work grows with the joints' fifth power.
 constexpr int kSamplesOfReading = 250;
 constexpr int kHeldOutSamples = 500;
+constexpr double kOutOfReach = .01;  // of the samples
+// By which controllers overshoot limits: of the speed's, and of the range.
+constexpr double kOvershoot = .05;
 
 }  // namespace
 
@@ -49,6 +54,26 @@ HeldOutFit ReadingState::HeldOut(const LogReading& reading) const {
 TorqueScales ReadingState::ScalesOf(LogReading reading) const {
   reading.torque_unit = 1;
   return TorqueScale(RobotOf(reading), SamplesOf(reading));
+}
+
+bool ReadingState::AreInReach(const LogReading& reading,
+                              const std::vector<int>& joints,
+                              bool asks_speed) const {
+  const Motion motion =
+      SamplesAs(reading, robot, series, kHeldOutSamples).motion;
+  return std::all_of(joints.begin(), joints.end(), [&](int j) {
+    const Joint& joint = robot.links[j].joint;
+    const double margin = std::isfinite(joint.upper - joint.lower)
+                              ? kOvershoot * (joint.upper - joint.lower)
+                              : 0;
+    const auto q = motion.q.col(j).array();
+    const double top = asks_speed ? (1 + kOvershoot) * joint.velocity
+                                  : std::numeric_limits<double>::infinity();
+    const auto speed = motion.qd.col(j).array().abs();
+    const auto beyond =
+        q < joint.lower - margin || q > joint.upper + margin || speed > top;
+    return static_cast<double>(beyond.count()) <= kOutOfReach * motion.size();
+  });
 }
 
 void ReadingState::Accept(Candidate candidate, double new_misfit,

@@ -26,6 +26,11 @@ struct ReadingState {
   double Misfit(const LogReading& reading, double* percent = nullptr) const;
   HeldOutFit HeldOut(const LogReading& reading) const;
   TorqueScales ScalesOf(LogReading reading) const;
+  // Whether these joints, read so, are where the robot file says that they can
+  // be, and no faster where speeds are asked, in all but a hundredth of the
+  // samples.
+  bool AreInReach(const LogReading& reading, const std::vector<int>& joints,
+                  bool asks_speed) const;
 
   void Accept(Candidate candidate, double new_misfit, double probability,
               const HeldOutFit& fit);

@@ -130,12 +130,19 @@ InspectionFinding FindingOf(const ReadingChange& change,
       break;
     case Kind::kDegrees:
       finding.finding = "position_unit";
-      finding.sentence = "positions are in degrees, not in rad";
+      finding.sentence = change.joint < 0
+                             ? "positions are in degrees, not in rad"
+                             : "the position of " + JointNames(change, robot) +
+                                   " is in degrees, not in rad as the others";
       finding.remedy = "name the columns q1[deg] ..., or " + OptionName("fix");
       break;
     case Kind::kMillimetres:
       finding.finding = "position_unit";
-      finding.sentence = "positions of joints that slide are in mm, not in m";
+      finding.sentence =
+          change.joint < 0
+              ? "positions of joints that slide are in mm, not in m"
+              : "the position of " + JointNames(change, robot) +
+                    " is in mm, not in m";
       finding.remedy = "name their columns q3[mm] ..., or " + OptionName("fix");
       break;
     case Kind::kGravity:

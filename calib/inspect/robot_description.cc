@@ -1,7 +1,6 @@
 #include "calib/inspect/robot_description.h"
 
 #include <cmath>
-#include <vector>
 
 #include "calib/numerics/json_figures.h"
 #include "model/robot/kinematics.h"
@@ -13,20 +12,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using nlohmann::json;
-
-// The axes of the joints in the base's frame, all of them at zero: the third
-// column of each joint frame F, which the joint turns about or moves along.
-std::vector<Vector3d> AxesAtZero(const Robot& robot) {
-  std::vector<Vector3d> axes;
-  const std::vector<Isometry3d> X_WL =
-      LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()));
-  for (int j = 0; j < robot.num_joints(); ++j) {
-    const int parent = robot.parent(j);
-    const Isometry3d& X_PF = robot.links[j].X_PF;
-    axes.push_back((parent < 0 ? X_PF : X_WL[parent] * X_PF).linear().col(2));
-  }
-  return axes;
-}
 
 Vector3d CenterOf(const Link& link) {
   return link.inertial.first_moment / link.inertial.mass;
@@ -82,6 +67,18 @@ json Numbers(const Vector3d& v) {
 }
 
 }  // namespace
+
+std::vector<Vector3d> AxesAtZero(const Robot& robot) {
+  std::vector<Vector3d> axes;
+  const std::vector<Isometry3d> X_WL =
+      LinkPoses(robot, Eigen::VectorXd::Zero(robot.num_joints()));
+  for (int j = 0; j < robot.num_joints(); ++j) {
+    const int parent = robot.parent(j);
+    const Isometry3d& X_PF = robot.links[j].X_PF;
+    axes.push_back((parent < 0 ? X_PF : X_WL[parent] * X_PF).linear().col(2));
+  }
+  return axes;
+}
 
 std::string DescriptionText(const Robot& robot) {
   const std::vector<Vector3d> axes = AxesAtZero(robot);

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "model/robot/robot.h"
 
 namespace armcal {
+
+// The axes of the joints in the base's frame, all of them at zero.
+std::vector<Eigen::Vector3d> AxesAtZero(const Robot& robot);
 
 // What was read of a robot file, for people to hold against the real arm: each
 // joint with its type, its axis in the base's frame where all joints are at

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <string>
 
+#include "calib/inspect/columns/folded_torque.h"
 #include "calib/inspect/held_out_fit.h"
 #include "calib/numerics/median.h"
+#include "model/text/format.h"
 
 namespace armcal {
 namespace {
@@ -74,8 +76,16 @@ VectorXd FitWithSigns(const HeldOutHalves& halves, int half, int j) {
   return best;
 }
 
-std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
-  UnsignedTorque found{j};
+// What the size of a torque tells, by a fit and by where it comes near zero.
+struct Asked {
+  UnsignedTorque torque;
+  bool is_clear = false;     // the fit alone tells
+  int halves_that_fall = 0;  // in which it leaves less, held out, in squares
+};
+
+Asked Ask(const HeldOutHalves& halves, int j) {
+  Asked asked{{j}, true};
+  UnsignedTorque& found = asked.torque;
   double before = 0, after = 0, all = 0, samples = 0;
   for (int half = 0; half < 2; ++half) {
     const TorqueFit& judge = halves.fit(1 - half);
@@ -85,10 +95,9 @@ std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
     const VectorXd free = judge.Torque(FitWithSigns(halves, half, j)).col(j);
     const VectorXd of_logged = as_logged - unseen;
     const VectorXd of_size = free.cwiseAbs() - unseen.cwiseAbs();
-    if (!(MedianSquare(of_size, unseen) <
-          kMostLeftOfSize * MedianSquare(of_logged, unseen))) {
-      return std::nullopt;
-    }
+    asked.is_clear &= MedianSquare(of_size, unseen) <
+                      kMostLeftOfSize * MedianSquare(of_logged, unseen);
+    asked.halves_that_fall += of_size.squaredNorm() < of_logged.squaredNorm();
     before += of_logged.squaredNorm();
     after += of_size.squaredNorm();
     found.turned +=
@@ -97,13 +106,31 @@ std::optional<UnsignedTorque> Ask(const HeldOutHalves& halves, int j) {
     samples += static_cast<double>((unseen.array() != 0).count());
   }
   found.turned /= samples;
-  if (!(after < before)) return std::nullopt;
-  if (std::min(found.turned, 1 - found.turned) < kLeastTurned) {
-    return std::nullopt;
-  }
+  asked.is_clear &= after < before &&
+                    std::min(found.turned, 1 - found.turned) >= kLeastTurned;
   found.before = 100 * std::sqrt(before / all);
   found.after = 100 * std::sqrt(after / all);
-  return found;
+  return asked;
+}
+
+std::vector<Asked> AskAll(const Robot& robot, const WiringSamples& samples,
+                          const std::vector<int>& joints) {
+  std::vector<Asked> all;
+  if (joints.empty()) return all;
+  const HeldOutHalves halves(robot, samples);
+  for (const int j : joints) all.push_back(Ask(halves, j));
+  return all;
+}
+
+VectorXd SpeedAtRows(const UniformSeries& series, const Log& log, int j) {
+  VectorXd speed(log.size());
+  for (int k = 0; k < log.size(); ++k) {
+    const auto row =
+        static_cast<Eigen::Index>((log.t[k] - log.t[0]) / series.dt());
+    speed[k] =
+        series.motion().qd(std::min(row, series.motion().qd.rows() - 1), j);
+  }
+  return speed;
 }
 
 }  // namespace
@@ -112,14 +139,47 @@ std::vector<UnsignedTorque> FindUnsignedTorques(
     const Robot& robot, const WiringSamples& samples,
     const std::vector<int>& joints) {
   std::vector<UnsignedTorque> found;
-  if (joints.empty()) return found;
-  const HeldOutHalves halves(robot, samples);
-  for (const int j : joints) {
-    if (const auto unsigned_torque = Ask(halves, j)) {
-      found.push_back(*unsigned_torque);
-    }
+  for (const Asked& asked : AskAll(robot, samples, joints)) {
+    if (asked.is_clear) found.push_back(asked.torque);
   }
   return found;
+}
+
+std::vector<InspectionFinding> UnsignedFindings(
+    const Robot& robot, const UniformSeries& series, const Log& log,
+    const WiringSamples& samples, const std::vector<int>& joints) {
+  std::vector<InspectionFinding> findings;
+  for (const Asked& asked : AskAll(robot, samples, joints)) {
+    const UnsignedTorque& lost = asked.torque;
+    const Folds folds = FindFolds(log.tau.col(lost.joint),
+                                  SpeedAtRows(series, log, lost.joint));
+    const int agree = asked.halves_that_fall == 2 ? 2 : 0;
+    const bool folds_tell =
+        folds.HaveLostSign(static_cast<int>(joints.size()), agree);
+    if (!asked.is_clear && !folds_tell) continue;
+    std::string evidence;
+    if (asked.is_clear || agree > 0) {
+      evidence = Format(
+          "of its size, held out, a fit leaves %.3g %% as logged and "
+          "%.3g %% with both signs, the other in %.0f %% of the samples",
+          lost.before, lost.after,
+          100 * std::min(lost.turned, 1 - lost.turned));
+    }
+    if (folds_tell) {
+      evidence += Format(
+          "%s%d times it comes near zero and leaves again, and never on the "
+          "other side",
+          evidence.empty() ? "" : "; ", folds.visits);
+    }
+    findings.push_back({"unsigned_torque",
+                        "the torque of " + robot.links[lost.joint].joint.name +
+                            " has lost its sign",
+                        evidence, "log the torque with its sign", lost.joint});
+    if (!asked.is_clear && agree == 0) continue;
+    findings.back().held_out_before = lost.before;
+    findings.back().held_out_after = lost.after;
+  }
+  return findings;
 }
 
 }  // namespace armcal

@@ -2,7 +2,10 @@
 
 #include <vector>
 
+#include "calib/logs/inspection_finding.h"
+#include "calib/logs/uniform_series.h"
 #include "calib/logs/wiring.h"
+#include "model/log_files/log.h"
 #include "model/robot/robot.h"
 
 namespace armcal {
@@ -23,6 +26,16 @@ struct UnsignedTorque {
 // `joints` are those that are asked about: whose torque, as it was logged, has
 // one sign.
 std::vector<UnsignedTorque> FindUnsignedTorques(const Robot& robot,
+                                                const WiringSamples& samples,
+                                                const std::vector<int>& joints);
+
+// These, and those of the joints asked about whose torque in the log comes near
+// zero and leaves again as what goes through zero does (FindFolds): of friction
+// and short motions a fit that may choose the signs explains the size either
+// way, and this asks no model.
+std::vector<InspectionFinding> UnsignedFindings(const Robot& robot,
+                                                const UniformSeries& series,
+                                                const Log& log,
                                                 const WiringSamples& samples,
                                                 const std::vector<int>& joints);
 

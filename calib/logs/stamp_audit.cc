@@ -15,6 +15,7 @@ namespace armcal {
 namespace {
 
 constexpr double kLostShare = .1;
+constexpr double kAlike = .1;  // as a share, of steps by velocities
 
 std::vector<double> Steps(const Log& log) {
   std::vector<double> steps;
@@ -90,6 +91,37 @@ double ChangeOverVelocity(const Log& log) {
   return by_velocity > 0 ? change / by_velocity : 0;
 }
 
+// Whether stamps are the rows' numbers, from 0 or 1.
+bool CountsRows(const Log& log) {
+  if (log.size() < 3 || (log.t[0] != 0 && log.t[0] != 1)) return false;
+  for (int k = 1; k < log.size(); ++k) {
+    if (log.t[k] != log.t[0] + k) return false;
+  }
+  return true;
+}
+
+// How long a row is, s, of stamps that count them: the ratio of the positions'
+// changes to the recorded velocities, by the joints' median, where more than
+// half of the joints have that to a tenth. 0 where nothing tells.
+double RowByVelocity(const Log& log) {
+  if (log.qd.size() == 0) return 0;
+  std::vector<double> told;
+  for (int j = 0; j < log.q.cols(); ++j) {
+    Log one;
+    one.t = log.t;
+    one.q = log.q.col(j);
+    one.qd = log.qd.col(j);
+    const double row = ChangeOverVelocity(one);
+    if (row > 0) told.push_back(row);
+  }
+  if (told.empty()) return 0;
+  const double median = Quantile(told, .5);
+  const auto alike = std::count_if(told.begin(), told.end(), [&](double row) {
+    return std::abs(row / median - 1) < kAlike;
+  });
+  return 2 * alike > static_cast<long>(told.size()) ? median : 0;
+}
+
 // The speed below which the fastest joint is for nine tenths of the steps, if
 // stamps are in s.
 double UsualSpeed(const Log& log) {
@@ -114,6 +146,22 @@ double UnitByMotion(const Log& log, double step) {
   if (told == 0) told = UsualSpeed(log);
   if (told == 0) return unit;
   return told > boundary ? 1 : 1e-3;
+}
+
+void SayOfCounter(const StampFigures& stamps,
+                  std::vector<InspectionFinding>* findings) {
+  const bool is_told = stamps.row_by_velocity > 0;
+  findings->push_back(
+      {"row_counter",
+       is_told ? "the time counts rows"
+               : "the time counts rows, or is in ms at 1 kHz",
+       is_told ? Format("it goes on by 1 each row, and by positions and "
+                        "recorded velocities a row is %.4g ms",
+                        1e3 * stamps.row_by_velocity)
+               : Format("it goes on by 1 each row, and no recorded velocity "
+                        "tells how long a row is; taken for %s",
+                        TimeUnitName(stamps.unit)),
+       "log each sample's own time, or multiply the column by a row's"});
 }
 
 // Stamps that are rounded repeat alike all along the log, and coarse_stamps
@@ -170,6 +218,15 @@ StampFigures AuditStamps(const Log& log) {
   figures.step = Quantile(steps, .2);
   figures.longest_gap = *std::max_element(steps.begin(), steps.end());
   figures.unit = UnitByMotion(log, figures.step);
+  figures.counts_rows = CountsRows(log);
+  if (figures.counts_rows) {
+    figures.row_by_velocity = RowByVelocity(log);
+    // What is s or ms to a tenth is that.
+    const double ratio = figures.row_by_velocity / figures.unit;
+    figures.counts_rows = !(std::abs(ratio - 1) < kAlike);
+    if (figures.counts_rows && ratio > 0)
+      figures.unit = figures.row_by_velocity;
+  }
   double between = 0;
   for (const double step : steps) {
     if (IsHole(step * figures.unit, figures.step * figures.unit)) {
@@ -198,7 +255,9 @@ StampFigures AuditStamps(const Log& log) {
 std::vector<InspectionFinding> StampFindings(const StampFigures& stamps,
                                              int rows) {
   std::vector<InspectionFinding> findings;
-  if (stamps.unit != 1) {
+  if (stamps.counts_rows) {
+    SayOfCounter(stamps, &findings);
+  } else if (stamps.unit != 1) {
     const char* name = TimeUnitName(stamps.unit);
     findings.push_back(
         {"time_unit", std::string("the time is in ") + name + ", not in s",

@@ -34,6 +34,10 @@ struct StampFigures {
   long holes = 0;
   double hole_time = 0;  // s, of all of them
   double unit = 1;       // by which stamps were multiplied to be s
+  // Stamps are 0, 1, 2, .. or 1, 2, 3, ..: a row's number, or ms at 1 kHz. What
+  // recorded velocities make of a row, s, if they tell; it is `unit` then.
+  bool counts_rows = false;
+  double row_by_velocity = 0;
 };
 StampFigures AuditStamps(const Log& log);
 

@@ -253,4 +253,31 @@ TEST_F(LogReadingTest, LateTorques) {
   EXPECT_NEAR(found.reading.delay, .02, .003);
 }
 
+// One column came from elsewhere than the others: of a file without limits
+// torques tell which, and of one with limits of half a turn not all joints'
+// positions are in degrees because one is beyond them.
+TEST_F(LogReadingTest, OneColumnInDegrees) {
+  log_.q.col(1) *= 180 / M_PI;
+  log_.qd.col(1) *= 180 / M_PI;
+  for (const bool has_limits : {false, true}) {
+    ReadingHints hints;
+    for (Link& link : robot_.links) {
+      if (!has_limits) continue;
+      link.joint.lower = -M_PI;
+      link.joint.upper = M_PI;
+    }
+    const UniformSeries series(log_, .01, .05, 8);
+    hints.units = HintsOfPositionUnit(robot_, log_, series.motion().qd);
+    EXPECT_EQ(!hints.units.degrees.evidence.empty(), has_limits);
+    const ReadingFinding found = FindReading(robot_, series, hints);
+    ASSERT_EQ(found.changes.size(), 1u);
+    EXPECT_EQ(found.changes[0].kind, Kind::kDegrees);
+    EXPECT_EQ(found.changes[0].joint, 1);
+    const Joint& joint = robot_.links[1].joint;
+    EXPECT_DOUBLE_EQ(found.reading.units.Of(joint, 1), M_PI / 180);
+    EXPECT_EQ(found.reading.units.Of(joint, 2), 1);
+    EXPECT_LT(found.residual_percent, 5);
+  }
+}
+
 }  // namespace armcal::log_reading_test

@@ -62,4 +62,51 @@ TEST(ReadingConfirmation, ASignIsConfirmedByItsOwnTorque) {
   EXPECT_FALSE(is_confirmed(Kind::kTorquesExchanged));
 }
 
+// Two joints whose torques hardly tell them apart: that one goes farther than
+// the file lets it, and the other would not, decides, if torques fit better at
+// all. It says nothing of a torque's order.
+TEST(ReadingConfirmation, LimitsTellAnOrder) {
+  InspectedArm arm;
+  arm.log.q.col(3) *= .2;
+  const auto is_confirmed = [&](Kind kind, double residual) {
+    const UniformSeries series(arm.log, .01, .05, 8);
+    const ReadingState state(arm.robot, series);
+    HeldOutFit changed = state.held_out;
+    changed.residual_percent *= residual;
+    Candidate candidate{state.best, {kind, 3, 4}};
+    if (kind == Kind::kExchanged) {
+      std::swap(candidate.reading.wiring.position_column[3],
+                candidate.reading.wiring.position_column[4]);
+    }
+    return IsConfirmed(state, candidate, state.held_out, changed);
+  };
+  EXPECT_FALSE(is_confirmed(Kind::kExchanged, .99));
+  arm.robot.links[4].joint.upper = .5 * arm.log.q.col(4).maxCoeff();
+  arm.robot.links[4].joint.lower = -arm.robot.links[4].joint.upper;
+  ASSERT_LT(arm.log.q.col(3).cwiseAbs().maxCoeff(),
+            arm.robot.links[4].joint.upper);
+  EXPECT_TRUE(is_confirmed(Kind::kExchanged, .99));
+  EXPECT_FALSE(is_confirmed(Kind::kExchanged, 1.01));
+  EXPECT_FALSE(is_confirmed(Kind::kTorquesExchanged, .99));
+  // Nor where the other joint is as far beyond its own.
+  arm.robot.links[3].joint.velocity = 1e-3;
+  EXPECT_FALSE(is_confirmed(Kind::kExchanged, .99));
+}
+
+// The PUMA's second and third axis are parallel, its first is not: where both
+// signs fit alike, the one is told beside the other.
+TEST(ReadingConfirmation, SignsOfParallelJointsAreToldBeside) {
+  const InspectedArm arm;
+  const UniformSeries series(arm.log, .01, .05, 8);
+  const ReadingState state(arm.robot, series);
+  std::vector<Candidate> all;
+  for (int j = 0; j < 3; ++j) {
+    all.push_back({state.best, {Kind::kPositionSign, j}});
+  }
+  const auto beside =
+      AlternativesTo(1, state.held_out, {-100, -100, -100}, all, state);
+  ASSERT_EQ(beside.size(), 1u);
+  EXPECT_EQ(beside[0].joint, 2);
+}
+
 }  // namespace armcal::reading_confirmation_test

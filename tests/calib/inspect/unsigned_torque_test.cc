@@ -44,4 +44,25 @@ TEST_F(UnsignedTorqueTest, NoiseHasLostNothing) {
   EXPECT_TRUE(Find({5}).empty());
 }
 
+// No arm explains it, but its size comes to zero again and again without ever
+// going on to the other side. Noise that has both signs is not asked; noise
+// beside a load does not come near zero.
+TEST_F(UnsignedTorqueTest, ASizeThatNoArmExplainsIsToldByItsZeros) {
+  std::mt19937_64 random(5);
+  arm_.log.tau.col(5).setZero();
+  AddNoise(&random, Eigen::VectorXd::Ones(6), &arm_.log.tau);
+  arm_.log.tau.col(5) = arm_.log.tau.col(5).cwiseAbs().eval();
+  const UniformSeries series(arm_.log, .01, .05, 8);
+  const auto told = [&] {
+    return UnsignedFindings(arm_.robot, series, arm_.log, series.Pick(400, 0),
+                            {5});
+  };
+  ASSERT_EQ(told().size(), 1u);
+  EXPECT_EQ(told()[0].joint, 5);
+  EXPECT_NE(told()[0].evidence.find("never on the other side"),
+            std::string::npos);
+  arm_.log.tau.col(5).array() += 1;
+  EXPECT_TRUE(told().empty());
+}
+
 }  // namespace armcal::unsigned_torque_test

@@ -57,6 +57,28 @@ TEST_F(ChannelAuditTest, TimeInOtherUnits) {
   EXPECT_EQ(findings[0].finding, "time_unit");
 }
 
+// A column 0, 1, 2, .. is a counter where recorded velocities say that a row is
+// 10 ms, in ms where they say 1 ms, and may be either where there are none.
+TEST_F(ChannelAuditTest, RowNumbersAreNoMilliseconds) {
+  Log log = arm_.log;
+  log.t.setLinSpaced(log.size(), 0, log.size() - 1);
+  const auto said = [&] {
+    return AuditChannels(arm_.robot, arm_.log, AuditStamps(log))[0];
+  };
+  EXPECT_NEAR(AuditStamps(log).unit, .01, 1e-4);
+  EXPECT_EQ(said().finding, "row_counter");
+  EXPECT_EQ(said().sentence, "the time counts rows");
+  Log fast = log;
+  fast.qd *= 10;
+  EXPECT_EQ(AuditStamps(fast).unit, 1e-3);
+  EXPECT_FALSE(AuditStamps(fast).counts_rows);
+  log.qd.resize(0, 0);
+  EXPECT_EQ(said().finding, "row_counter");
+  EXPECT_EQ(said().sentence, "the time counts rows, or is in ms at 1 kHz");
+  log.t[5] += .5;
+  EXPECT_FALSE(AuditStamps(log).counts_rows);
+}
+
 TEST_F(ChannelAuditTest, StampsThatRepeatAreCoarse) {
   for (double& t : arm_.log.t) t = std::floor(t / .05) * .05;
   const auto findings =
