@@ -41,8 +41,10 @@ bool IsClaimedAt(const FoundEffect& found, double probability) {
   // At a frequency that other data do not have, it was a random torque.
   if (SwingsInTime(*found.effect) && found.evidence.gain.value <= 0)
     return false;
-  return probability >=
-         (IsSeenAgain(found) ? Limits().likely : Limits().likely_unseen);
+  // Where a refit without it leaves no more than the noise, nothing asks for
+  // it. (NaN: no reference tells.)
+  const bool is_shown = IsSeenAgain(found) && !(found.gap <= 1);
+  return probability >= (is_shown ? Limits().likely : Limits().likely_unseen);
 }
 
 }  // namespace

@@ -94,6 +94,14 @@ TEST_F(IsClaimedTest, WhatHeldOutDataDoNotShowIsLikelier) {
   EXPECT_FALSE(Claimed(.6, .01, 500, 50));
 }
 
+TEST_F(IsClaimedTest, WhatNothingAsksForIsLikelier) {
+  found_.gap = 1.1;
+  EXPECT_TRUE(Claimed(.6, .1));
+  found_.gap = .9;
+  EXPECT_FALSE(Claimed(.6, .1));
+  EXPECT_TRUE(Claimed(.75, .1));
+}
+
 TEST_F(IsClaimedTest, WhatReferenceLogsDifferByIsNoChange) {
   found_.in_reference = {1, 50};
   EXPECT_FALSE(Claimed(.99, 1));
