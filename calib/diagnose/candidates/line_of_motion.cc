@@ -39,7 +39,6 @@ MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint) {
 
 bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
                     const VectorXd& swing, double frequency) {
-  constexpr double kError = .5;  // of a part of the model
   const MatrixXd parts = PartsOf(robot, rows, joint);
   const std::vector<int> samples = rows.SampleOfRow(joint);
   std::vector<int> used;
@@ -63,7 +62,7 @@ bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
   for (int part = 0; part < 3; ++part) {
     largest = std::max(largest, AmplitudeAt(model.col(part), t, frequency));
   }
-  return kError * largest > AmplitudeAt(v, t, frequency);
+  return largest > AmplitudeAt(v, t, frequency);
 }
 
 }  // namespace armcal

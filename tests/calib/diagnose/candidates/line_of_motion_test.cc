@@ -45,10 +45,10 @@ bool IsOfMotion(double amplitude, double frequency) {
 }
 
 // The inertia's torque has 2 kg m^2 .1 rad (2 pi .9 Hz)^2 = 6.4 N m there.
-TEST(LineOfMotion, WhereHalfOfThatWouldExplainIt) {
+TEST(LineOfMotion, WhereAPartOfThatWouldExplainIt) {
   EXPECT_TRUE(IsOfMotion(1, kLine));
-  EXPECT_TRUE(IsOfMotion(3, kLine));
-  EXPECT_FALSE(IsOfMotion(3.5, kLine));
+  EXPECT_TRUE(IsOfMotion(6, kLine));
+  EXPECT_FALSE(IsOfMotion(7, kLine));
   EXPECT_FALSE(IsOfMotion(1, 3.1));
 }
 
