@@ -387,6 +387,8 @@ void Diagnoser::Judge() {
   facts.since_reference = result_.has_reference;
   facts.left_share = result_.unexplained.share;
   result_.verdict = JudgeGap(facts);
+  result_.only_held_out_left =
+      IsLoudHeldOut(facts) && facts.left == 0 && !facts.found_without_name;
 }
 
 }  // namespace

@@ -87,6 +87,8 @@ struct GapDiagnosis {
   std::vector<JointGap> joints;
   std::vector<TorqueTrace> traces;  // of what is held out, TraceHeldOut
   Unexplained unexplained;
+  // Whether it is unknown what is left of held-out data alone (IsLoudHeldOut).
+  bool only_held_out_left = false;
   std::vector<DataFinding> data;
   std::vector<UntestableEffect> untestable;
   double bandwidth_hz = 0;

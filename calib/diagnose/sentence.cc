@@ -179,7 +179,7 @@ std::string StillLeft(const GapDiagnosis& diagnosis) {
 std::string BriefVerdict(const GapDiagnosis& diagnosis) {
   const bool nothing_named = diagnosis.verdict == GapVerdict::kNoiseFloor ||
                              diagnosis.verdict == GapVerdict::kAbsorbed;
-  if (nothing_named && diagnosis.torque.refit > LoudestNoise()) {
+  if (diagnosis.only_held_out_left) {
     return Format(
         "No known effect is seen, yet held-out torque is off by %.3g times the "
         "noise's mean square: the noise may be louder than was told, or "

@@ -18,10 +18,10 @@ bool IsSizeTold(const FoundEffect& found) {
   return std::abs(found.estimates[0].value) > kNormal95 * found.stddev[0];
 }
 
-// Whether touches are fewer than what they stand out from: the arm is known by
-// the motion without them, and where that is the lesser part of the logs, the
-// model is wrong instead (no estimate resists more than half of its samples:
-// Donoho and Huber 1983).
+// Whether touches are fewer than what they stand out from: a joint's model is
+// known by its motion without them, and where that is the lesser part of the
+// logs, the model is wrong instead (no estimate resists more than half of its
+// samples: Donoho and Huber 1983).
 bool IsAnEvent(const FoundEffect& found) {
   constexpr double kBreakdown = .5;
   return found.share_of_time < kBreakdown;

@@ -71,23 +71,28 @@ TimeRange WithinLog(const GapRows& rows, const Contact& contact) {
           std::min(contact.window.end, log.end)};
 }
 
-// The share of the logs' time in which there is one at least.
+// The share of the logs' time in which there is one at least on a joint, of the
+// joint where that is most.
 double ShareOfTime(const GapRows& rows, const std::vector<Contact>& contacts) {
-  double touched = 0, all = 0;
+  Eigen::VectorXd touched = Eigen::VectorXd::Zero(rows.num_joints());
+  double all = 0;
   for (const GapSegment& segment : rows.segments()) {
     const Motion& motion = segment.motion;
     all += motion.dt * motion.size();
     for (int k = 0; k < motion.size(); ++k) {
-      const double t = motion.time(k);
-      touched += motion.dt * std::any_of(contacts.begin(), contacts.end(),
-                                         [&](const Contact& contact) {
-                                           return contact.log == segment.log &&
-                                                  t >= contact.window.begin &&
-                                                  t <= contact.window.end;
-                                         });
+      std::vector<bool> on_joint(rows.num_joints(), false);
+      for (const Contact& contact : contacts) {
+        const bool holds = contact.log == segment.log &&
+                           motion.time(k) >= contact.window.begin &&
+                           motion.time(k) <= contact.window.end;
+        if (holds) on_joint[contact.joint] = true;
+      }
+      for (int j = 0; j < rows.num_joints(); ++j) {
+        if (on_joint[j]) touched[j] += motion.dt;
+      }
     }
   }
-  return touched / all;
+  return touched.maxCoeff() / all;
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ struct FoundEffect {
   double ci95[2] = {NAN, NAN};
   std::string separate_by;        // the experiment that would tell them apart
   std::vector<Contact> contacts;  // of external_contact, in time's order
-  double share_of_time = 0;       // of the logs, in which there are contacts
+  double share_of_time = 0;       // of the logs, in which one joint is touched
   // Whether joints tell it alike, if it is of all of them, and its size as each
   // by itself has it where they do not.
   bool joints_agree = true;

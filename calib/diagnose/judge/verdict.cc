@@ -23,6 +23,11 @@ double UnexplainedOf(const JointLeft& left) {
   return left.excess;
 }
 
+bool IsLoudHeldOut(const GapFacts& facts) {
+  return facts.torque.known() && !facts.effects &&
+         facts.torque.refit > 1 + Limits().extra_variance_of_others;
+}
+
 // What the figures come to. What is left of all joints in sample, none of it
 // chance (UnexplainedOf), counts where it is more than Limits().left of what a
 // refit leaves; of held-out data, where it is more than Limits().left of the
@@ -51,7 +56,7 @@ GapVerdict JudgeGap(const GapFacts& facts) {
   // Nor is what was fitted without a name missing from a file that predicts
   // what was held out to the noise.
   const bool found = facts.found_without_name && nominal > 0;
-  if (much_left || found) return GapVerdict::kUnknown;
+  if (much_left || found || IsLoudHeldOut(facts)) return GapVerdict::kUnknown;
   return nominal > Limits().left && refit < Limits().absorbed * nominal
              ? GapVerdict::kAbsorbed
              : GapVerdict::kNoiseFloor;

@@ -38,6 +38,11 @@ struct GapFacts {
   double left_share = 0;  // of what a refit leaves beyond the noise
 };
 
+// Whether nothing is named, and held-out data are farther off than noise is
+// louder there than it was told to be, whatever the fitted logs show: it may be
+// louder still, or something is missing that these do not show.
+bool IsLoudHeldOut(const GapFacts& facts);
+
 // For data that can be diagnosed. What is left counts when it is much more than
 // chance gives and much of what was there. Nothing held out is no agreement.
 GapVerdict JudgeGap(const GapFacts& facts);

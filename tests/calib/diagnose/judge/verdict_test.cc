@@ -48,14 +48,18 @@ TEST(JudgeGap, WithoutEffects) {
   EXPECT_EQ(JudgeGap(Facts(1.1, 1, 1)), GapVerdict::kNoiseFloor);
   EXPECT_EQ(JudgeGap(Facts(5, 1.1, 1.1)), GapVerdict::kAbsorbed);
   // A refit that does not help has absorbed nothing.
-  EXPECT_EQ(JudgeGap(Facts(5, 4.9, 4.9)), GapVerdict::kNoiseFloor);
+  EXPECT_EQ(JudgeGap(Facts(1.9, 1.8, 1.8)), GapVerdict::kNoiseFloor);
+  // What is held out is off by far more than noise, though what was fitted is
+  // not: no agreement.
+  EXPECT_EQ(JudgeGap(Facts(5, 4.9, 4.9)), GapVerdict::kUnknown);
+  EXPECT_EQ(JudgeGap(Facts(50, 2.1, 2.1)), GapVerdict::kUnknown);
 }
 
 TEST(JudgeGap, WhatHasNoNameIsUnknown) {
-  GapFacts facts = Facts(5, 4, 4);
+  GapFacts facts = Facts(5, 1.9, 1.9);
   facts.found_without_name = true;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
-  facts = Facts(5, 4, 4);
+  facts = Facts(5, 1.9, 1.9);
   facts.left_share = .9;
   facts.left = 1000;
   EXPECT_EQ(JudgeGap(facts), GapVerdict::kUnknown);
