@@ -40,21 +40,18 @@ MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint) {
 bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
                     const VectorXd& swing, double frequency) {
   const MatrixXd parts = PartsOf(robot, rows, joint);
-  const std::vector<int> samples = rows.SampleOfRow(joint);
   std::vector<int> used;
-  for (size_t row = 0; row < samples.size(); ++row) {
-    const int segment = rows.SegmentOf(samples[row]);
-    const bool is_its = log < 0 || rows.segments()[segment].log == log;
-    if (is_its) used.push_back(static_cast<int>(row));
+  for (const int sample : rows.SampleOfRow(joint)) {
+    const int owner = rows.segments()[rows.SegmentOf(sample)].log;
+    if (log < 0 || owner == log) used.push_back(sample);
   }
   const auto size = static_cast<Eigen::Index>(used.size());
   VectorXd t(size), v(size);
   MatrixXd model(size, 3);
   for (Eigen::Index k = 0; k < size; ++k) {
-    const int sample = samples[used[k]];
-    t[k] = rows.thin_time(rows.SegmentOf(sample), sample);
+    t[k] = rows.thin_time(rows.SegmentOf(used[k]), used[k]);
     v[k] = swing[used[k]];
-    model.row(k) = parts.row(sample);
+    model.row(k) = parts.row(used[k]);
   }
   model.col(0) -= v;
   model.rowwise() -= model.colwise().mean().eval();

@@ -16,7 +16,8 @@ namespace armcal {
 // in what is recorded and in no part of the model, but for how it moves the
 // arm.
 //
-// `swing`: V in the joint's rows, N m or N; `log`: whose it is, -1: of all.
+// `swing`: V of all thinned samples, N m or N; `log`: whose it is, -1: of all.
+// Samples where the joint rests are not asked.
 bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
                     const Eigen::VectorXd& swing, double frequency);
 
