@@ -43,6 +43,30 @@ bool IsTilt(const Robot& robot, const LogReading& reading) {
          reading.gravity.dot(robot.gravity) >= kLeastCosine * sizes;
 }
 
+// Takes out what was said of rows when these were left out.
+void DropTold(const std::vector<RowRange>& left_out,
+              LogInspection* inspection) {
+  const auto are_left_out = [&](const FrozenChannel& run) {
+    return std::any_of(left_out.begin(), left_out.end(),
+                       [&](const RowRange& rows) {
+                         return rows.begin < run.end && run.begin < rows.end;
+                       });
+  };
+  const auto is_told = [&](const InspectionFinding& f) {
+    if (!f.leads) return false;
+    if (f.finding == "position_jump") return true;
+    const bool is_position = f.sentence.rfind("the position", 0) == 0;
+    return f.finding == "stuck" &&
+           std::any_of(inspection->frozen.begin(), inspection->frozen.end(),
+                       [&](const FrozenChannel& run) {
+                         return run.joint == f.joint &&
+                                run.is_position == is_position &&
+                                are_left_out(run);
+                       });
+  };
+  DropFindings(is_told, &inspection->findings);
+}
+
 // What cannot be read at all is refused where the log is opened for what it is
 // wanted for, which says more.
 std::optional<LogInspection> Inspected(const Robot& robot, const LogSource& log,
@@ -59,13 +83,9 @@ std::optional<LogInspection> Inspected(const Robot& robot, const LogSource& log,
           [](const InspectionFinding& f) { return f.finding == "gravity"; },
           &inspection.findings);
     }
-    if (options.left_out.count(log.name) > 0) {
-      DropFindings(
-          [](const InspectionFinding& f) {
-            return f.leads &&
-                   (f.finding == "stuck" || f.finding == "position_jump");
-          },
-          &inspection.findings);
+    const auto left_out = options.left_out.find(log.name);
+    if (left_out != options.left_out.end()) {
+      DropTold(left_out->second, &inspection);
     }
     return inspection;
   } catch (const InputError&) {
@@ -117,7 +137,7 @@ std::vector<DataFinding> OtherUnits(const LogSource& log,
 }
 
 bool Counts(const std::string& finding, const ReadingQuestions& questions) {
-  return finding == "time_unit" ||
+  return finding == "time_unit" || finding == "row_counter" ||
          (questions.arm && OfAnotherArm().count(finding) > 0) ||
          (questions.scales && OfAnotherScale().count(finding) > 0) ||
          (questions.arm && questions.scales && finding == kDoubtOfFile);

@@ -14,8 +14,8 @@ std::string EvidenceOfRun(const FrozenChannel& run) {
       Format("%d rows of one number; ", run.end - run.begin);
   if (run.jump != 0) {
     return rows + Format(
-                      "it goes on by %.3g in one row after them, in which "
-                      "it moves no farther than in others",
+                      "then it goes %.3g rad or m in one row, more "
+                      "than five times what its motion has",
                       run.jump);
   }
   return rows +

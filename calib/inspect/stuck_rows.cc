@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <climits>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -73,6 +74,18 @@ bool IsUsed(const LogParts& parts, double begin, double end) {
                      });
 }
 
+// The rows of the used parts, t being their times; none where there are none.
+std::vector<RowRange> UsedRows(const LogParts& parts,
+                               const Eigen::VectorXd& t) {
+  std::vector<RowRange> used;
+  for (const TimeRange& crop : parts.crops) {
+    const auto begin = std::lower_bound(t.begin(), t.end(), crop.begin);
+    const auto end = std::upper_bound(begin, t.end(), crop.end);
+    used.push_back({begin - t.begin(), end - t.begin()});
+  }
+  return used;
+}
+
 // Those that are in a used part lead a diagnosis.
 std::vector<DataFinding> ToldOfFrozen(
     const Robot& robot, const LogParts& parts, const Log& log,
@@ -97,12 +110,17 @@ std::vector<DataFinding> ToldOfFrozen(
 std::vector<DataFinding> ToldOfJumps(const Robot& robot, const LogParts& parts,
                                      const Log& log, LogJumps jumps) {
   const auto is_unused = [&](const PositionJumps::Step& step) {
-    return !IsUsed(parts, log.t[step.row - 1], log.t[step.row]);
+    return std::none_of(parts.crops.begin(), parts.crops.end(),
+                        [&](const TimeRange& crop) {
+                          return log.t[step.row - 1] >= crop.begin &&
+                                 log.t[step.row] <= crop.end;
+                        });
   };
   for (PositionJumps& of_joint : jumps.joints) {
-    auto& wraps = of_joint.wraps;
-    wraps.erase(std::remove_if(wraps.begin(), wraps.end(), is_unused),
-                wraps.end());
+    for (auto* steps : {&of_joint.wraps, &of_joint.steps}) {
+      steps->erase(std::remove_if(steps->begin(), steps->end(), is_unused),
+                   steps->end());
+    }
   }
   std::vector<DataFinding> told;
   for (const InspectionFinding& found :
@@ -149,8 +167,13 @@ MendedLog MendedOf(const Robot& robot, const LogParts& parts,
   MendJumps(jumps, &log);
   const std::vector<FrozenChannel> frozen = find_frozen(log, jumps);
   mended.rows = RowsOf(frozen);
-  const auto others = RowsOfOtherZeros(jumps, log.size());
-  mended.rows.insert(mended.rows.end(), others.begin(), others.end());
+  for (RowRange rows :
+       RowsOfOtherZeros(jumps, log.size(), UsedRows(parts, log.t))) {
+    // More rows than are inspected are as the last of these.
+    const bool is_cut = log.size() == kMostInspectedRows;
+    if (is_cut && rows.end == log.size()) rows.end = LONG_MAX;
+    mended.rows.push_back(rows);
+  }
   mended.findings = ToldOfFrozen(robot, parts, log, frozen);
   const auto told = ToldOfJumps(robot, parts, log, jumps);
   mended.findings.insert(mended.findings.end(), told.begin(), told.end());

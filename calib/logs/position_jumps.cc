@@ -16,7 +16,7 @@ constexpr double kOfMotion = .02;  // rad/s or m/s
 // Times its steps around that a joint goes in a step that misses a row and
 // more; one that starts or stops goes less.
 constexpr double kAhead = 2.5;
-// Of the largest step, to which another one takes it back: as of spikes.
+// Of the smallest step, to which another one takes it back: as of spikes.
 constexpr double kTakenBack = .2;
 
 // The whole turns in a step, in rad, or in degrees where it is that large; 0
@@ -138,23 +138,28 @@ struct ZeroRows {
 };
 
 std::vector<ZeroRows> ZerosOf(const std::vector<PositionJumps::Step>& steps,
-                              int rows) {
+                              int rows, const std::vector<RowRange>& used) {
   std::vector<ZeroRows> zeros;
-  double zero = 0, largest = 0;
+  double zero = 0, smallest = INFINITY;
   long begin = 0;
+  for (const PositionJumps::Step& step : steps) {
+    smallest = std::min(smallest, std::abs(step.size));
+  }
   const auto add = [&](long end) {
     auto same = std::find_if(zeros.begin(), zeros.end(), [&](const auto& one) {
-      return std::abs(one.zero - zero) <= kTakenBack * largest;
+      return std::abs(one.zero - zero) <= kTakenBack * smallest;
     });
     if (same == zeros.end()) same = zeros.insert(zeros.end(), {zero, 0, {}});
-    same->count += end - begin;
+    for (const RowRange& part : used) {
+      same->count +=
+          std::max(0L, std::min(end, part.end) - std::max(begin, part.begin));
+    }
     same->rows.push_back({begin, end});
     begin = end;
   };
   for (const PositionJumps::Step& step : steps) {
     add(step.row);
     zero += step.size;
-    largest = std::max(largest, std::abs(step.size));
   }
   add(rows);
   return zeros;
@@ -203,11 +208,13 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log) {
   return found;
 }
 
-std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows) {
+std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows,
+                                       std::vector<RowRange> used) {
+  if (used.empty()) used = {{0, rows}};
   std::vector<RowRange> left_out;
   for (const PositionJumps& of_joint : jumps.joints) {
     if (of_joint.steps.empty()) continue;
-    const std::vector<ZeroRows> zeros = ZerosOf(of_joint.steps, rows);
+    const std::vector<ZeroRows> zeros = ZerosOf(of_joint.steps, rows, used);
     const auto usual = std::max_element(
         zeros.begin(), zeros.end(),
         [](const auto& a, const auto& b) { return a.count < b.count; });

@@ -41,8 +41,10 @@ LogJumps FindPositionJumps(const Robot& robot, const Log& log);
 void MendJumps(const LogJumps& jumps, Log* log);
 
 // Rows that are left out where a joint's zero is another one after a step: all
-// but those of the zero that it has for most of the log's `rows`. A step that
-// takes an earlier one back leads to the earlier zero.
-std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows);
+// but those of the zero that it has for most of the `used` ones of the log's
+// `rows` (none: of all). A step that takes an earlier one back, to a fifth of
+// the joint's smallest step, leads to the earlier zero.
+std::vector<RowRange> RowsOfOtherZeros(const LogJumps& jumps, int rows,
+                                       std::vector<RowRange> used = {});
 
 }  // namespace armcal

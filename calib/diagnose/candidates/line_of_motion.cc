@@ -45,6 +45,7 @@ bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
     const int owner = rows.segments()[rows.SegmentOf(sample)].log;
     if (log < 0 || owner == log) used.push_back(sample);
   }
+  if (used.empty()) return false;
   const auto size = static_cast<Eigen::Index>(used.size());
   VectorXd t(size), v(size);
   MatrixXd model(size, 3);

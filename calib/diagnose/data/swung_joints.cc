@@ -8,6 +8,7 @@
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/text/format.h"
+#include "model/text/input_error.h"
 
 namespace armcal {
 namespace {
@@ -85,6 +86,15 @@ std::vector<DataFinding> LeaveOutSwungJoints(
                 "move so as well, and its equation of motion is left out",
                 swung.torque_rms, unit.c_str(), swung.needed_rms, unit.c_str()),
          "", false, true});
+  }
+  const bool asks_nothing =
+      std::all_of(segments->begin(), segments->end(),
+                  [](const GapSegment& one) { return one.still.all(); });
+  if (!findings.empty() && asks_nothing) {
+    throw InputError(logs.path(0), "", "",
+                     "all joints that move swing freely, and their drives do "
+                     "next to nothing: an arm of any mass would move so; "
+                     "expected a reference in which drives work");
   }
   return findings;
 }

@@ -52,11 +52,14 @@ bool IsClaimedAt(const FoundEffect& found, double probability) {
 bool HasANumber(const FoundEffect& found) {
   constexpr double kNormal975 = 1.96;
   if (found.stddev_by_scale.empty()) return true;
+  bool is_fitted = false;  // one has a deviation at least
   for (size_t i = 0; i < found.stddev_by_scale.size(); ++i) {
-    const double value = std::abs(found.estimates[i].value);
-    if (value > kNormal975 * found.stddev_by_scale[i]) return true;
+    const double stddev = found.stddev_by_scale[i];
+    if (!(stddev > 0)) continue;  // nothing tells of it, or it is given
+    is_fitted = true;
+    if (std::abs(found.estimates[i].value) > kNormal975 * stddev) return true;
   }
-  return false;
+  return !is_fitted;
 }
 
 bool IsNeeded(const FoundEffect& found, double extra_variance) {

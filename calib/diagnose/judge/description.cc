@@ -41,8 +41,8 @@ void DescribeFitted(const GapFit& fit, const GapCandidate& effect,
         NumberOf(effect.effect->numbers(site, effect.p), "frequency"));
   }
   const std::vector<bool>& swings = fit.scale().swings;
-  found->of_idle_drive =
-      effect.effect->of_the_drive && !swings.empty() && swings[effect.joint];
+  found->of_idle_drive = effect.effect->of_the_drive && effect.joint >= 0 &&
+                         !swings.empty() && swings[effect.joint];
 }
 
 void WidenByJoints(const GapFit& fit, const GapCandidate& effect,

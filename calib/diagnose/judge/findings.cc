@@ -281,6 +281,9 @@ void JoinMeans(std::vector<FoundEffect>* effects) {
                            mean.estimates.end());
       law.stddev.insert(law.stddev.end(), mean.stddev.begin(),
                         mean.stddev.end());
+      law.stddev_by_scale.insert(law.stddev_by_scale.end(),
+                                 mean.stddev_by_scale.begin(),
+                                 mean.stddev_by_scale.end());
       law.fitted.insert(law.fitted.end(), mean.fitted.begin(),
                         mean.fitted.end());
       effects->erase(effects->begin() + i);

@@ -229,6 +229,21 @@ TEST_F(WrongPositions, TheShorterSideOfALostZeroIsLeftOut) {
 }
 
 // A third of a second in motion, which no torque is asked about.
+// Each side by itself is right.
+TEST_F(WrongPositions, ACropOfOneZeroIsAsItWas) {
+  log_.q.col(1).tail(600).array() += .4;
+  const double at = log_.t[log_.size() - 600];
+  for (const TimeRange& crop : {TimeRange{0, at - .1}, TimeRange{at, 1e9}}) {
+    reading_.left_out.clear();
+    EXPECT_TRUE(Mend(crop).empty()) << crop.begin;
+    for (const RowRange& rows : reading_.left_out["log.csv"]) {
+      const bool is_used =
+          log_.t[rows.begin] < crop.end && log_.t[rows.end - 1] > crop.begin;
+      EXPECT_FALSE(is_used) << crop.begin;
+    }
+  }
+}
+
 TEST_F(WrongPositions, RowsThatEndInAJumpAreLeftOut) {
   const int at = RowInMotion(arm_.log, 1);
   log_.q.col(1).segment(at, 33).setConstant(log_.q(at, 1));

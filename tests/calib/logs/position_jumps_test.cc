@@ -164,6 +164,29 @@ TEST_F(PositionJumpsTest, RowsOfTheRarerZeroAreLeftOut) {
   EXPECT_EQ(both[0].end, log.size());
 }
 
+// Of the last 500 rows, which a crop uses, all have the zero that is lost.
+TEST_F(PositionJumpsTest, RowsOfAZeroCountWhereTheyAreUsed) {
+  Log log = arm_.log;
+  const int size = log.size();
+  log.q.col(2).tail(600).array() += .3;
+  const std::vector<RowRange> others =
+      RowsOfOtherZeros(Jumps(log), size, {{size - 500, size}});
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].begin, 0);
+  EXPECT_EQ(others[0].end, size - 600);
+}
+
+// A second step of a sixth of the first does not take it back.
+TEST_F(PositionJumpsTest, ASmallerStepLeadsToAnotherZero) {
+  Log log = arm_.log;
+  const int size = log.size();
+  log.q.col(2).tail(1500).array() += 1;
+  log.q.col(2).tail(600).array() += .18;
+  const LogJumps jumps = Jumps(log);
+  ASSERT_EQ(jumps.joints[2].steps.size(), 2u);
+  EXPECT_EQ(RowsOfOtherZeros(jumps, size).size(), 2u);
+}
+
 TEST_F(PositionJumpsTest, TimeThatIsMissingIsNoEncoders) {
   const LogJumps jumps = Jumps(WithoutHalfASecond());
   ASSERT_EQ(jumps.missing_time.size(), 1u);

@@ -9,6 +9,7 @@
 
 #include "calib/diagnose/data/rows.h"
 #include "calib/diagnose/data/segments.h"
+#include "model/text/input_error.h"
 #include "tests/fixtures/swing.h"
 #include "tests/fixtures/temp_file.h"
 
@@ -78,9 +79,15 @@ TEST(SwungJoints, OfAReferenceAreAskedNothing) {
   const LogSet logs = LogsOf(.04);
   std::vector<GapSegment> segments = ReadSegments(kBandwidth, {}, logs);
   EXPECT_FALSE(GapRows(segments, kBandwidth).runs(0).empty());
+  EXPECT_THROW(LeaveOutSwungJoints(Pendulum(), logs, &segments), InputError);
+  // Beside a log in which the drive works.
+  segments = ReadSegments(kBandwidth, {}, logs);
+  segments.push_back(ReadSegments(kBandwidth, {}, LogsOf(.5))[0]);
+  segments.back().log = 1;
   const std::vector<DataFinding> findings =
       LeaveOutSwungJoints(Pendulum(), logs, &segments);
-  EXPECT_TRUE(GapRows(segments, kBandwidth).runs(0).empty());
+  EXPECT_TRUE(segments[0].still.all());
+  EXPECT_FALSE(segments.back().still.all());
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_THAT(findings[0].finding, testing::HasSubstr("pivot"));
   EXPECT_THAT(findings[0].finding, testing::HasSubstr(logs.path(0)));

@@ -191,6 +191,10 @@ TEST_F(IsClaimedTest, EffectsHaveANumber) {
   EXPECT_TRUE(Claimed(.9, .1));
   found_.stddev_by_scale = {.0073, 2};
   EXPECT_TRUE(Claimed(.9, .1));
+  found_.stddev_by_scale = {.0073, 0};  // nothing tells of the second
+  EXPECT_FALSE(Claimed(.9, .1));
+  found_.stddev_by_scale = {0, 0};
+  EXPECT_TRUE(Claimed(.9, .1));
 }
 
 // As it has no size there (swung_joints.h).
