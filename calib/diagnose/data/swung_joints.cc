@@ -4,11 +4,11 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "model/dynamics/forward_dynamics.h"
 #include "model/dynamics/inverse_dynamics.h"
 #include "model/text/format.h"
-#include "model/text/input_error.h"
 
 namespace armcal {
 namespace {
@@ -71,9 +71,12 @@ std::vector<SwungJoint> FindSwungJoints(
 
 std::vector<DataFinding> LeaveOutSwungJoints(
     const Robot& robot, const LogSet& logs, std::vector<GapSegment>* segments) {
+  const std::vector<SwungJoint> all = FindSwungJoints(robot, *segments);
+  if (all.empty()) return {};
   std::vector<DataFinding> findings;
-  for (const SwungJoint& swung : FindSwungJoints(robot, *segments)) {
-    for (GapSegment& segment : *segments) {
+  std::vector<GapSegment> rest = *segments;
+  for (const SwungJoint& swung : all) {
+    for (GapSegment& segment : rest) {
       if (segment.log != swung.log) continue;
       segment.still.col(swung.joint).setConstant(true);
     }
@@ -88,14 +91,10 @@ std::vector<DataFinding> LeaveOutSwungJoints(
          "", false, true});
   }
   const bool asks_nothing =
-      std::all_of(segments->begin(), segments->end(),
+      std::all_of(rest.begin(), rest.end(),
                   [](const GapSegment& one) { return one.still.all(); });
-  if (!findings.empty() && asks_nothing) {
-    throw InputError(logs.path(0), "", "",
-                     "all joints that move swing freely, and their drives do "
-                     "next to nothing: an arm of any mass would move so; "
-                     "expected a reference in which drives work");
-  }
+  if (asks_nothing) return {};
+  *segments = std::move(rest);
   return findings;
 }
 

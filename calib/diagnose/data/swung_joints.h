@@ -26,8 +26,9 @@ std::vector<SwungJoint> FindSwungJoints(
     const Robot& robot, const std::vector<GapSegment>& segments);
 
 // Nothing is asked of these from now on, as if they had stood still, and a
-// finding each: of a reference, which has to tell the scale. Throws InputError
-// where nothing else moves. `logs`: whose segments they are.
+// finding each: of a reference, which has to tell the scale. Where
+// nothing else moves, all stays as it is: torques may as well be in another
+// unit. `logs`: whose segments they are.
 std::vector<DataFinding> LeaveOutSwungJoints(const Robot& robot,
                                              const LogSet& logs,
                                              std::vector<GapSegment>* segments);
