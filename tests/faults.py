@@ -197,7 +197,11 @@ def log_cut_while_read():
                 found[name] = whole[name]
             expect(found == whole, 'a result of half a log')
         else:
-            expect('cut.csv: has changed while it was read' in error,
+            # It is read twice, first for what its positions have wrong: one
+            # that is cut between is what it is then.
+            expect('cut.csv: has changed while it was read' in error or
+                   'cut.csv: row' in error and
+                   'the file ends inside this row' in error,
                    'the reason', error)
             expect(not os.path.exists('cut'), 'a result of half a log')
         shutil.rmtree('cut', ignore_errors=True)
