@@ -4,17 +4,12 @@
 #include <cmath>
 #include <vector>
 
-#include "calib/diagnose/data/thresholds.h"
 #include "calib/diagnose/named_effects.h"
 #include "calib/diagnose/names.h"
 #include "model/text/format.h"
 
 namespace armcal {
 namespace {
-
-// Held-out mean square over the noise's from which on it is more than noise
-// that is louder than was told.
-double LoudestNoise() { return 1 + Limits().extra_variance_of_others; }
 
 bool IsMovedZero(const MovedParameter& moved) {
   return moved.term == JointTerm::kOffset;

@@ -134,7 +134,8 @@ class Inspector {
   // Before anything is concluded from them. Of such a column nothing else is
   // said, but that it is at a limit where it is so in other rows, too.
   void LeaveOutFrozen() {
-    result_.frozen = FindAllFrozenChannels(robot_, log_, result_.jumps);
+    result_.frozen = FindAllFrozenChannels(robot_, log_, result_.jumps,
+                                           result_.stamps.mean_step);
     if (result_.frozen.empty()) return;
     const auto findings = FrozenFindings(robot_, log_.t, result_.frozen);
     log_ = WithoutFrozenRows(log_, result_.frozen);
@@ -149,10 +150,15 @@ class Inspector {
           },
           &result_.findings);
     }
-    DropVelocitiesOfFrozen(
-        result_.frozen,
-        AuditChannels(robot_, log_, result_.stamps, torque_units_),
-        &result_.findings);
+    const bool any_position =
+        std::any_of(result_.frozen.begin(), result_.frozen.end(),
+                    [](const auto& run) { return run.is_position; });
+    if (any_position) {
+      DropVelocitiesOfFrozen(
+          result_.frozen,
+          AuditChannels(robot_, log_, result_.stamps, torque_units_),
+          &result_.findings);
+    }
     result_.findings.insert(result_.findings.begin(), findings.begin(),
                             findings.end());
   }

@@ -6,7 +6,6 @@
 #include "calib/inspect/equal_rows.h"
 #include "calib/inspect/frozen_findings.h"
 #include "calib/inspect/inspected_series.h"
-#include "calib/logs/stamp_audit.h"
 #include "model/log_files/row_range.h"
 #include "model/signals/position_spikes.h"
 
@@ -84,9 +83,9 @@ std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
 
 std::vector<FrozenChannel> FindAllFrozenChannels(const Robot& robot,
                                                  const Log& log,
-                                                 const LogJumps& jumps) {
+                                                 const LogJumps& jumps,
+                                                 double mean_step) {
   std::vector<FrozenChannel> frozen = FindStuckPositions(robot, log);
-  const double mean_step = AuditStamps(log).mean_step;
   if (log.tau.size() == 0 || !(mean_step > 0)) return frozen;
   std::vector<RowRange> left_out = RowsOf(frozen);
   const std::vector<RowRange> others = RowsOfOtherZeros(jumps, log.size());

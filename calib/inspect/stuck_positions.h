@@ -22,8 +22,10 @@ std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
 
 // These, and what the arm's torques tell of (FindFrozenChannels, of the log
 // without them and without rows of other zeros), in rows of the log.
+// `mean_step`: of its stamps (AuditStamps), s.
 std::vector<FrozenChannel> FindAllFrozenChannels(const Robot& robot,
                                                  const Log& log,
-                                                 const LogJumps& jumps);
+                                                 const LogJumps& jumps,
+                                                 double mean_step);
 
 }  // namespace armcal

@@ -150,11 +150,14 @@ void AddTurns(const LogJumps& jumps, bool of_command,
   }
 }
 
-// Mends jumps of a log whose time is in s; `frozen` are those of its rows.
+// The channels of a log that are frozen, once its jumps are mended; mean_step,
+// s, as its stamps have it.
 using RowSearch = std::function<std::vector<FrozenChannel>(
-    const Log& mended, const LogJumps& jumps)>;
+    const Log& mended, const LogJumps& jumps, double mean_step)>;
+
+// Mends jumps of a log whose time is in s.
 MendedLog MendedOf(const Robot& robot, const LogParts& parts,
-                   const RowSearch& find_frozen, Log log) {
+                   const RowSearch& find_frozen, double mean_step, Log log) {
   MendedLog mended;
   const LogJumps jumps = FindPositionJumps(robot, log);
   AddTurns(jumps, false, &mended.turns);
@@ -165,7 +168,7 @@ MendedLog MendedOf(const Robot& robot, const LogParts& parts,
     AddTurns(FindPositionJumps(robot, commands), true, &mended.turns);
   }
   MendJumps(jumps, &log);
-  const std::vector<FrozenChannel> frozen = find_frozen(log, jumps);
+  const std::vector<FrozenChannel> frozen = find_frozen(log, jumps, mean_step);
   mended.rows = RowsOf(frozen);
   for (RowRange rows :
        RowsOfOtherZeros(jumps, log.size(), UsedRows(parts, log.t))) {
@@ -188,10 +191,12 @@ MendedLog MendedRead(const Robot& robot, const LogParts& parts,
   try {
     Log log;
     LogReader(parts.log, reading).Read(kMostInspectedRows, &log);
-    const double unit = log.size() < 3 ? 0 : AuditStamps(log).unit;
-    if (!(unit > 0)) return {};
-    log.t *= unit;
-    return MendedOf(robot, parts, find_frozen, std::move(log));
+    if (log.size() < 3) return {};
+    const StampFigures stamps = AuditStamps(log);
+    if (!(stamps.unit > 0)) return {};
+    log.t *= stamps.unit;
+    return MendedOf(robot, parts, find_frozen, stamps.mean_step,
+                    std::move(log));
   } catch (const ChangedFile&) {
     throw;
   } catch (const InputError&) {
@@ -204,7 +209,7 @@ MendedLog MendedPositions(const Robot& robot, const LogParts& parts,
   reading.need_torque = false;
   reading.want_reference = true;
   return MendedRead(robot, parts, reading,
-                    [&](const Log& mended, const LogJumps&) {
+                    [&](const Log& mended, const LogJumps&, double) {
                       return FindStuckPositions(robot, mended);
                     });
 }
@@ -215,10 +220,11 @@ MendedLog StuckRowsIn(const Robot& robot, const LogParts& parts,
   LogReaderOptions inspected = reading;
   inspected.want_velocity = inspected.commands_do = inspected.currents_do =
       true;
-  MendedLog mended = MendedRead(
-      robot, parts, inspected, [&](const Log& log, const LogJumps& jumps) {
-        return FindAllFrozenChannels(robot, log, jumps);
-      });
+  MendedLog mended =
+      MendedRead(robot, parts, inspected,
+                 [&](const Log& log, const LogJumps& jumps, double mean_step) {
+                   return FindAllFrozenChannels(robot, log, jumps, mean_step);
+                 });
   if (mended.rows.empty()) return mended;
   reading.left_out[parts.log.name] = mended.rows;
   reading.position_turns[parts.log.name] = mended.turns;

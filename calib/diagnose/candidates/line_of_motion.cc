@@ -14,22 +14,22 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A joint's recorded torque and what the file has of it, gravity and inertia,
-// of all thinned samples: columns.
-MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint) {
-  MatrixXd parts(rows.num_thin(), 3);
-  int row = 0;
+// of a log's thinned samples, or of all (-1): columns. Other rows stay 0.
+MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint, int log) {
+  MatrixXd parts = MatrixXd::Zero(rows.num_thin(), 3);
   for (size_t i = 0; i < rows.segments().size(); ++i) {
     const int s = static_cast<int>(i);
     const GapSegment& segment = rows.segments()[i];
+    if (log >= 0 && segment.log != log) continue;
     const Motion& motion = segment.motion;
     const MatrixXd tau = rows.Thin(s, segment.tau.col(joint));
     const MatrixXd q = rows.Pick(s, motion.q), qd = rows.Pick(s, motion.qd),
                    qdd = rows.Pick(s, motion.qdd);
-    for (int k = 0; k < q.rows(); ++k, ++row) {
+    for (int k = 0; k < q.rows(); ++k) {
       const double gravity = GravityTorque(robot, q.row(k))[joint];
       const double all =
           InverseDynamics(robot, q.row(k), qd.row(k), qdd.row(k))[joint];
-      parts.row(row) << tau(k, 0), gravity, all - gravity;
+      parts.row(rows.thin_begin(s) + k) << tau(k, 0), gravity, all - gravity;
     }
   }
   return parts;
@@ -39,7 +39,7 @@ MatrixXd PartsOf(const Robot& robot, const GapRows& rows, int joint) {
 
 bool IsLineOfMotion(const Robot& robot, const GapRows& rows, int joint, int log,
                     const VectorXd& swing, double frequency) {
-  const MatrixXd parts = PartsOf(robot, rows, joint);
+  const MatrixXd parts = PartsOf(robot, rows, joint, log);
   std::vector<int> used;
   for (const int sample : rows.SampleOfRow(joint)) {
     const int owner = rows.segments()[rows.SegmentOf(sample)].log;

@@ -23,9 +23,11 @@ double UnexplainedOf(const JointLeft& left) {
   return left.excess;
 }
 
+double LoudestNoise() { return 1 + Limits().extra_variance_of_others; }
+
 bool IsLoudHeldOut(const GapFacts& facts) {
   return facts.torque.known() && !facts.effects &&
-         facts.torque.refit > 1 + Limits().extra_variance_of_others;
+         facts.torque.refit > LoudestNoise();
 }
 
 // What the figures come to. What is left of all joints in sample, none of it

@@ -38,6 +38,10 @@ struct GapFacts {
   double left_share = 0;  // of what a refit leaves beyond the noise
 };
 
+// Held-out mean square over the noise's from which on it is more than noise
+// that is louder than was told.
+double LoudestNoise();
+
 // Whether nothing is named, and held-out data are farther off than noise is
 // louder there than it was told to be, whatever the fitted logs show: it may be
 // louder still, or something is missing that these do not show.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calib/inspect/inspection.h"
+#include "calib/logs/stamp_audit.h"
 #include "model/log_files/log_source.h"
 #include "tests/fixtures/inspected_arm.h"
 
@@ -105,7 +106,8 @@ TEST_F(StuckPositionsTest, TorquesAreAskedWithoutThem) {
   tau.tail(300).head(200).cwiseAbs().maxCoeff(&row);
   const int begin = static_cast<int>(row + log_.size() - 300);
   log_.tau.col(1).segment(begin, 50).setZero();
-  const auto frozen = FindAllFrozenChannels(arm_.robot, log_, jumps);
+  const auto frozen = FindAllFrozenChannels(arm_.robot, log_, jumps,
+                                            AuditStamps(log_).mean_step);
   ASSERT_EQ(frozen.size(), 2u);
   EXPECT_EQ(frozen[0].begin, at_);
   EXPECT_FALSE(frozen[1].is_position);
