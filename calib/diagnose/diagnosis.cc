@@ -240,7 +240,7 @@ GapDiagnosis Diagnoser::Run(const LogSet& training, const LogSet* validation,
   Simulate(split ? training : *validation, split);
   result_.moved =
       ListMoved(*fit_, fit_->model_after(), result_.corrected.effects);
-  result_.shown = ListShown(*fit_, fit_->model_after());
+  result_.shown = ListShown(*fit_);
   result_.drifts = ListRunDrifts(*fit_, fit_->model_after());
   std::vector<FoundEffect> found = result_.effects;
   found.insert(found.end(), result_.unnamed.begin(), result_.unnamed.end());

@@ -37,18 +37,18 @@ bool AreSignificant(const VectorXd& p, const MatrixXd& covariance) {
 }
 
 // Laws that a reference shows by itself, with the values and the deviations
-// that all logs together give them. Their parameters are columns of the
+// that a fit to the reference gives them. Their parameters are columns of the
 // baseline, so that their covariance is a block of its, scaled from units of
 // the column to those of the law.
-std::vector<ShownEffect> ListShown(const GapFit& fit,
-                                   const Eigen::VectorXd& x) {
+std::vector<ShownEffect> ListShown(const GapFit& fit) {
   const GapBaseline& baseline = fit.baseline();
   const auto& parameters = baseline.known().parameters();
   const auto count = static_cast<Eigen::Index>(parameters.size());
-  const MatrixXd all = fit.screen().BaselineCovariance().block(
-      baseline.known_begin(), baseline.known_begin(), count, count);
   std::vector<ShownEffect> shown;
-  for (const KnownEffect& known : baseline.KnownAt(x)) {
+  if (count == 0) return shown;
+  const MatrixXd all = fit.CovarianceBefore().block(
+      baseline.known_begin(), baseline.known_begin(), count, count);
+  for (const KnownEffect& known : baseline.KnownAt(fit.before())) {
     const int place = static_cast<int>(shown.size());
     MatrixXd covariance = MatrixXd::Zero(known.p.size(), known.p.size());
     std::vector<int> fitted;  // of p

@@ -24,7 +24,8 @@ struct ShownEffect {
 bool AreSignificant(const Eigen::VectorXd& p,
                     const Eigen::MatrixXd& covariance);
 
-// Those that the fit's baseline knows, at its values x.
-std::vector<ShownEffect> ListShown(const GapFit& fit, const Eigen::VectorXd& x);
+// Those that the fit's baseline knows, as the reference alone has them: what
+// it shows does not depend on the logs that are compared with it.
+std::vector<ShownEffect> ListShown(const GapFit& fit);
 
 }  // namespace armcal

@@ -69,6 +69,9 @@ class GapFit {
   }
   // GapRegression's.
   const Eigen::VectorXd& before() const { return regression_.before(); }
+  Eigen::MatrixXd CovarianceBefore() const {
+    return regression_.CovarianceBefore();
+  }
   const Eigen::VectorXd& refit() const { return regression_.refit(); }
   // Whitened residual of joint j given the refined effects: their torque as it
   // is, not as columns have it.

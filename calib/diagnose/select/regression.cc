@@ -8,6 +8,7 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/reference_fit.h"
 #include "calib/diagnose/select/reference_folds.h"
 #include "calib/diagnose/select/reference_noise.h"
 
@@ -19,17 +20,6 @@ using Eigen::VectorXd;
 
 // Standard deviations of a change from log to log that is usual.
 constexpr double kUsual = 3;
-
-// The model's own columns are fitted alone, those of the discrepancy held at 0:
-// what a robot file can hold, as it is before anything is diagnosed.
-VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
-  GapScreen screen = data.Screen(baseline.num_model_columns());
-  screen.Factor();
-  VectorXd x = VectorXd::Zero(baseline.size());
-  x.head(baseline.num_model_columns()) =
-      screen.BaselineGiven(JointRows(data.rows().num_joints()));
-  return x;
-}
 
 // White noise of what a robot as its file has it leaves.
 VectorXd Start(const GapData& data) {
@@ -59,8 +49,8 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
   if (of_positions) noise_ = NoiseOfPositions(baseline, data_->rows());
   if (!reference.empty()) {
     if (!of_positions) {
-      noise_ = ReferenceNoise(baseline.WithoutDiscrepancy(), bandwidth_hz,
-                              reference);
+      noise_ = ReferenceNoise(baseline.WithoutDiscrepancy(), reference,
+                              data_->rows());
     }
     reference_ =
         std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);
@@ -158,10 +148,9 @@ void GapRegression::EstimateNoise() {
     reference_->MoveFrictionByDelays(baseline_, before_);
     data_->MoveFrictionByDelays(baseline_, before_);
   } else if (noise_.source != NoiseFloor::kPositions) {
-    data_->SetNoise(WhiteNoise(data_->residual()));
-    noise_ =
-        EstimateGapNoise(data_->rows(), data_->FineResidual(),
-                         data_->ResidualWith(RefitModel(baseline_, *data_)));
+    const VectorXd x = FitModelWithNoise(baseline_, data_.get());
+    noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
+                              data_->ResidualWith(x));
   }
   DistrustOtherMotion(data_.get());
   data_->SetNoise(noise_.joints);
@@ -181,7 +170,15 @@ void GapRegression::SettleReference() {
       WeighReference();
     }
   }
-  before_ = RefitModel(baseline_, *reference_);
+  before_ = FitModel(baseline_, *reference_);
+}
+
+MatrixXd GapRegression::CovarianceBefore() const {
+  const int columns = baseline_.num_model_columns();
+  if (!reference_) return MatrixXd::Zero(columns, columns);
+  GapScreen screen = reference_->Screen(columns);
+  screen.Factor();
+  return screen.BaselineCovariance();
 }
 
 // Once the size of what models lack is told as well.

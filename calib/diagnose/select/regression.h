@@ -88,6 +88,9 @@ class GapRegression {
   // The baseline's values before these logs: the file's, or those of the
   // reference.
   const Eigen::VectorXd& before() const { return before_; }
+  // The covariance of these as the reference alone gives it, of the model's own
+  // columns; 0 where there is no reference.
+  Eigen::MatrixXd CovarianceBefore() const;
   // Its values without any effect.
   const Eigen::VectorXd& refit() const { return refit_; }
   // Per joint thinned samples, N m or N.
