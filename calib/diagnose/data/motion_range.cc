@@ -94,16 +94,17 @@ Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> MotionRange::Knows(
   return knows;
 }
 
-Eigen::ArrayXXd MotionRange::OwnRatio(const GapRows& rows) const {
+Eigen::ArrayXXd MotionRange::OwnGrowth(const GapRows& rows) const {
   const MatrixXd speeds = Speeds(rows), accelerations = Accelerations(rows);
-  Eigen::ArrayXXd ratio = Eigen::ArrayXXd::Ones(speeds.rows(), speeds.cols());
+  Eigen::ArrayXXd growth = Eigen::ArrayXXd::Ones(speeds.rows(), speeds.cols());
   for (int j = 0; j < speeds.cols(); ++j) {
     if (!(speeds_[j] > 0) || !(accelerations_[j] > 0)) continue;
-    ratio.col(j) = (speeds.col(j).array() / speeds_[j])
-                       .square()
-                       .max(accelerations.col(j).array() / accelerations_[j]);
+    growth.col(j) = (speeds.col(j).array() / speeds_[j])
+                        .square()
+                        .max(accelerations.col(j).array() / accelerations_[j])
+                        .max(1.);
   }
-  return ratio;
+  return growth;
 }
 
 }  // namespace armcal

@@ -19,12 +19,8 @@ class MotionRange {
   // acceleration / range of all joints.
   Eigen::ArrayXd Growth(const GapRows& rows) const;
   // The same of each joint by its own motion alone, thinned samples x n; 1
-  // where the log has no motion of it. As it is, it is less than 1 of slower
-  // motion.
-  Eigen::ArrayXXd OwnRatio(const GapRows& rows) const;
-  Eigen::ArrayXXd OwnGrowth(const GapRows& rows) const {
-    return OwnRatio(rows).max(1.);
-  }
+  // where the log has no motion of it.
+  Eigen::ArrayXXd OwnGrowth(const GapRows& rows) const;
   // Whether each joint has moved the way that it moves in each thinned sample
   // of a log, thinned samples x n: of one that turned one way only, friction
   // cannot be told from a wrong zero, so that nothing is known of its torque on

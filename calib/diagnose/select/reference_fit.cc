@@ -15,10 +15,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Rounds of a fit and the noise that it leaves. They come closer by a factor:
-// of a file that is far off, what is left of a prior's pull falls to a few per
-// cent from one to the next.
-constexpr int kMostRounds = 20;
+// Rounds of a fit and the noise that it leaves. Of a reference a few: its own
+// values become the next prior's mean (FitReference). Of a log without one they
+// end where nothing changes: what a prior's pull towards a file that is far off
+// leaves falls by a factor from one to the next.
+constexpr int kRounds = 3, kMostRounds = 20;
 constexpr double kSigmaSettled = .01;  // of a standard deviation
 
 // With the first `columns` of the baseline, those behind them held at 0.
@@ -40,11 +41,11 @@ double ChangeOfSigma(const std::vector<Autoregression>& before,
   return most;
 }
 
-VectorXd FitFirstWithNoise(int columns, GapData* data) {
+VectorXd FitFirstWithNoise(int columns, int rounds, GapData* data) {
   std::vector<Autoregression> noise = WhiteNoise(data->residual());
   data->SetNoise(noise);
   VectorXd x = Refit(*data, columns);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const std::vector<Autoregression> before = std::move(noise);
     noise = WhiteNoise(Moving(data->rows(), data->ResidualWith(x)));
     data->SetNoise(noise);
@@ -65,7 +66,7 @@ MatrixXd Moving(const GapRows& rows, const MatrixXd& residual) {
 }
 
 VectorXd FitWithNoise(GapData* data) {
-  return FitFirstWithNoise(data->num_columns(), data);
+  return FitFirstWithNoise(data->num_columns(), kRounds, data);
 }
 
 VectorXd FitModel(const GapBaseline& baseline, const GapData& data) {
@@ -73,7 +74,7 @@ VectorXd FitModel(const GapBaseline& baseline, const GapData& data) {
 }
 
 VectorXd FitModelWithNoise(const GapBaseline& baseline, GapData* data) {
-  return FitFirstWithNoise(baseline.num_model_columns(), data);
+  return FitFirstWithNoise(baseline.num_model_columns(), kMostRounds, data);
 }
 
 }  // namespace armcal

@@ -49,8 +49,8 @@ GapRegression::GapRegression(const GapBaseline& baseline, double bandwidth_hz,
   if (of_positions) noise_ = NoiseOfPositions(baseline, data_->rows());
   if (!reference.empty()) {
     if (!of_positions) {
-      noise_ = ReferenceNoise(baseline.WithoutDiscrepancy(), reference,
-                              data_->rows());
+      noise_ = ReferenceNoise(baseline.WithoutDiscrepancy(), bandwidth_hz,
+                              reference);
     }
     reference_ =
         std::make_shared<GapData>(std::move(reference), baseline, bandwidth_hz);

@@ -67,6 +67,21 @@ TEST_F(GapReferenceTest, WhatItsLogShowedIsNoChange) {
   EXPECT_EQ(diagnosis.shown[0].effect->name, "quadratic_friction");
 }
 
+// A spring of which the diagnosed log has more, by a gain that makes it look
+// so.
+TEST_F(GapReferenceTest, WhatItShowsDoesNotDependOnTheOtherLog) {
+  constexpr double kStiffness = 6;  // N m/rad
+  AddAlways("spring", 1, {kStiffness, 0});
+  Add("spring", 1, {.01, 0});
+  const GapDiagnosis diagnosis = Diagnose(File(), true);
+  ASSERT_FALSE(diagnosis.shown.empty());
+  EXPECT_EQ(diagnosis.shown[0].effect->name, "spring");
+  EXPECT_TRUE(diagnosis.effects.empty());
+  EXPECT_NEAR(diagnosis.shown[0].estimates[0].value, kStiffness,
+              2 * diagnosis.shown[0].stddev[0]);
+  EXPECT_LT(diagnosis.shown[0].stddev[0], .001 * kStiffness);
+}
+
 // The reference carried a tool, which was taken off.
 TEST_F(GapReferenceTest, WhatWasTakenOffHasANegativeMass) {
   std::vector<double> p(FindEffect("payload")->parameters.size(), 0);
