@@ -5,7 +5,10 @@
 #include "calib/calibrated_robot.h"
 #include "calib/calibration_details.h"
 #include "calib/closed_loop/output_error_report.h"
+#include "calib/inspect/stuck_rows.h"
 #include "calib/linear/calibrate_linear.h"
+#include "calib/log_doubts.h"
+#include "calib/log_readings.h"
 #include "model/robot_files/controller_reader.h"
 #include "model/text/input_error.h"
 #include "model/text/input_text.h"
@@ -79,9 +82,20 @@ void CheckTorqueLogs(const LogInput& logs, const CalibrateOptions& options) {
                     "commas between them");
 }
 
+// What is wrong with positions is not read: of commands and of torques.
+std::vector<DataFinding> Mend(const Robot& robot, const LogInput& logs,
+                              const CalibrateOptions& options,
+                              LogReaderOptions* reading) {
+  LogInput torques;
+  torques.logs = options.commands->torque_logs;
+  return MendPositions(robot, UsedParts({&logs, &options.validation, &torques}),
+                       reading);
+}
+
 // What logs with torques of the same arm tell; nothing without them.
 std::optional<TorqueInformation> InformByTorqueLogs(
-    const Robot& robot, const CalibrateOptions& options) {
+    const Robot& robot, const CalibrateOptions& options,
+    const LogReaderOptions& reading) {
   const std::vector<LogSource>& torques = options.commands->torque_logs;
   if (torques.empty()) return std::nullopt;
   const LinearCalibrationOptions& linear = options.equations;
@@ -96,7 +110,7 @@ std::optional<TorqueInformation> InformByTorqueLogs(
   NonlinearCalibrationOptions fit;
   fit.trust = options.trust;
   fit.progress = options.progress;
-  const LogSet logs(torques, options.reading, TimeRange());
+  const LogSet logs(torques, reading, TimeRange());
   return InformByTorques(robot, CalibrateLinear(robot, linear, logs, nullptr),
                          fit, logs);
 }
@@ -109,9 +123,12 @@ CalibrateSummary CalibrateFromCommands(const Robot& robot, const LogInput& logs,
   ExpectMasses(robot, options);
   CheckApart(logs, options.validation);
   CheckTorqueLogs(logs, options);
-  LogReaderOptions reading = options.reading;
-  reading.need_torque = false;
   if (options.progress) options.progress("opening the logs", -1);
+  LogReaderOptions with_torques = options.reading;
+  const std::vector<DataFinding> mended =
+      Mend(robot, logs, options, &with_torques);
+  LogReaderOptions reading = with_torques;
+  reading.need_torque = false;
   const std::vector<CommandedLog> training = Read(logs, reading);
   const std::vector<CommandedLog> validation =
       Read(options.validation, reading);
@@ -123,7 +140,7 @@ CalibrateSummary CalibrateFromCommands(const Robot& robot, const LogInput& logs,
         MostTraceBins(static_cast<int>(drawn), robot.num_joints(), 2);
   }
   const std::optional<TorqueInformation> torques =
-      InformByTorqueLogs(robot, options);
+      InformByTorqueLogs(robot, options, with_torques);
   auto details = std::make_shared<CalibrationDetails>();
   const OutputErrorCalibration& result = details->commanded.emplace(
       CalibrateOutputError(robot, controller, fit, training, validation,
@@ -144,6 +161,7 @@ CalibrateSummary CalibrateFromCommands(const Robot& robot, const LogInput& logs,
     drives.delay = result.values.delay;
     AddCalibratedRobot(result.arm, drives, options, &json, &summary);
   }
+  if (!mended.empty()) TellFirst(mended, &json, &summary);
   summary.json = json.dump(2) + "\n";
   summary.files.push_back({"calibration.json", summary.json});
   summary.positive = Shortcomings(result).empty();

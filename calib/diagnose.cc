@@ -3,7 +3,6 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "calib/diagnose/changes/changes.h"
@@ -21,7 +20,6 @@
 #include "calib/log_clocks.h"
 #include "calib/log_readings.h"
 #include "calib/logs/drawn_torques.h"
-#include "calib/logs/stamp_audit.h"
 #include "calib/reconstructed_torques.h"
 #include "calib/robot_outputs.h"
 #include "model/effects/effects.h"
@@ -54,25 +52,6 @@ std::optional<LogSet> Open(const LogInput& input,
   return LogSet(input.logs, reading, input.crop);
 }
 
-// Logs whose time is in different units have no bandwidth in common. Where all
-// are in one, the diagnosis says so itself.
-void CheckTimeUnits(const std::vector<const LogSet*>& sets) {
-  std::set<double> units;
-  const std::string* path = nullptr;
-  double slowest = 0;
-  for (const LogSet* logs : sets) {
-    for (int k = 0; logs != nullptr && k < logs->size(); ++k) {
-      const double step = logs->time_bases()[k].median_step;
-      units.insert(TimeUnitOf(step));
-      if (step <= slowest) continue;
-      slowest = step;
-      path = &logs->path(k);
-    }
-  }
-  if (units.size() < 2) return;
-  throw WrongTimeUnit(*path, slowest);
-}
-
 // A calibration's own logs, beside which no reference is given.
 CalibrationLogs LogsBeside(const std::optional<CalibratedRobot>& calibrated,
                            const std::vector<LogSource>& used,
@@ -94,14 +73,33 @@ void SetController(const Robot& robot, const LogInput& held_out,
                                    fit->commanded[0].log.qref.row(0));
 }
 
-// Of torques that a controller's law makes of positions none is stuck.
-std::vector<DataFinding> MendRows(const Robot& robot,
-                                  const std::vector<UsedLog>& used,
-                                  const DiagnoseOptions& options,
-                                  LogReaderOptions* reading) {
-  return options.controller.empty()
-             ? LeaveOutStuckRows(robot, used, options.bandwidth_hz, reading)
-             : MendPositions(robot, used, reading);
+// What was mended of logs before they are used, and what was found of them.
+struct MendedLogs {
+  std::vector<WrongClock> clocks;
+  std::vector<DataFinding> rows;
+};
+
+// Positions and velocities tell the clock, so that positions that jump are
+// mended before it is asked; what stands still is looked for in the time that
+// they tell. Torques that a controller's law makes are made of all that, and
+// none of them is stuck.
+MendedLogs MendLogs(const Robot& robot, const std::vector<UsedLog>& used,
+                    const std::vector<LogSource>& all,
+                    const DiagnoseOptions& options, LogReaderOptions* reading) {
+  LogReaderOptions positions = *reading;
+  MendPositions(robot, used, &positions);
+  MendedLogs mended;
+  mended.clocks = MendClocks(all, positions, reading);
+  if (options.controller.empty()) {
+    mended.rows = LeaveOutStuckRows(robot, used, options.bandwidth_hz, reading);
+    return mended;
+  }
+  mended.rows = MendPositions(robot, used, reading);
+  for (DataFinding& told :
+       ReconstructTorques(robot, options.controller, all, reading)) {
+    mended.rows.push_back(std::move(told));
+  }
+  return mended;
 }
 
 // Those that need no file.
@@ -353,18 +351,14 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
   std::vector<LogSource> all = AllLogs(logs, options);
   const CalibrationLogs own = LogsBeside(calibrated, all, reading, options);
   all.insert(all.end(), own.input.logs.begin(), own.input.logs.end());
-  const std::vector<WrongClock> clocks = MendClocks(all, &reading);
-  if (!options.controller.empty()) {
-    ReconstructTorques(robot, options.controller, all, &reading);
-  }
-  if (AreLawsInDoubt(clocks)) LeaveOutLaws(&fit);
+  const MendedLogs mended = MendLogs(
+      robot,
+      UsedParts({&logs, &options.validation, &options.reference, &own.input}),
+      all, options, &reading);
+  if (AreLawsInDoubt(mended.clocks)) LeaveOutLaws(&fit);
   // They are looked for while effects are, and needed when these are judged.
   std::vector<DataFinding> wrong_readings;
   tbb::task_group looking;
-  const std::vector<DataFinding> mended = MendRows(
-      robot,
-      UsedParts({&logs, &options.validation, &options.reference, &own.input}),
-      options, &reading);
   if (options.controller.empty()) {
     const bool scales =
         options.reference.logs.empty() && options.calibration.empty();
@@ -390,8 +384,9 @@ DiagnoseSummary Diagnose(const Robot& robot, const LogInput& logs,
       DiagnosedGap(known, fit, TrustInFile(options, true),
                    {training, held_out, before, beside ? &*beside : nullptr});
   if (fit.may_trust_less) NoteTrust(fit.baseline.trust, details.get());
-  details->data.insert(details->data.begin(), mended.begin(), mended.end());
-  AddClocks(clocks, logs.logs, options, details.get());
+  details->data.insert(details->data.begin(), mended.rows.begin(),
+                       mended.rows.end());
+  AddClocks(mended.clocks, logs.logs, options, details.get());
   if (calibrated) {
     NoteCalibration(*calibrated, own, {&training, held_out, before},
                     details.get());

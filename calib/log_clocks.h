@@ -6,6 +6,7 @@
 
 #include "calib/diagnose/data/audit.h"
 #include "calib/diagnose/judge/found_effect.h"
+#include "calib/logs/log_set.h"
 #include "model/log_files/log_reader_options.h"
 #include "model/log_files/log_source.h"
 
@@ -27,9 +28,16 @@ struct WrongClock {
 
 // Of those logs whose clock is wrong. They are read with the time that their
 // joints tell from then on (LogReaderOptions::sample_times), but for logs of
-// more than 2^20 rows.
+// more than 2^20 rows. `mended`: the same reading with positions mended
+// (MendPositions), since what jumps or stands still tells no time; rows that
+// it leaves out have the time between the rows around.
 std::vector<WrongClock> MendClocks(const std::vector<LogSource>& logs,
+                                   const LogReaderOptions& mended,
                                    LogReaderOptions* reading);
+
+// Refuses logs whose time is in different units, which have no bandwidth in
+// common. Where all are in one, a diagnosis says so itself. Null: no logs.
+void CheckTimeUnits(const std::vector<const LogSet*>& sets);
 
 // Whether the time of one of these is an estimate that laws may be wrong by.
 bool AreLawsInDoubt(const std::vector<WrongClock>& clocks);

@@ -89,6 +89,8 @@ bool MayBeMisread(const LogSet& training, const CalibrationDetails& details,
          (questions.scales && HasMassesOfOtherSize(*refined));
 }
 
+}  // namespace
+
 void TellFirst(const std::vector<DataFinding>& found, nlohmann::json* json,
                CalibrateSummary* summary) {
   std::string report, brief;
@@ -107,8 +109,6 @@ void TellFirst(const std::vector<DataFinding>& found, nlohmann::json* json,
   summary->report = report + summary->report;
   summary->brief = brief + summary->brief;
 }
-
-}  // namespace
 
 void AddLogDoubts(const Robot& robot, const LogInput& logs,
                   const CalibrateOptions& options,

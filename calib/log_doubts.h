@@ -13,10 +13,15 @@
 
 namespace armcal {
 
+// Puts findings before all else that report, brief and `warnings` of a
+// calibration say.
+void TellFirst(const std::vector<DataFinding>& found, nlohmann::json* json,
+               CalibrateSummary* summary);
+
 // Asks the logs of a calibration for readings that are wrong (WrongReadings),
-// and puts them before all else that report, brief and `warnings` say. A linear
-// fit does not notice them: torques that are negated, or a thousand times as
-// large, fit it with parameters that are negated or a thousand times as large.
+// and tells them first. A linear fit does not notice them: torques that are
+// negated, or a thousand times as large, fit it with parameters that are
+// negated or a thousand times as large.
 //
 // Asking takes as long as half a calibration. So it is done where the figures
 // leave room for it, and not where the robot that was found explains all

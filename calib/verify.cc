@@ -100,12 +100,12 @@ DrawnTorques Verifier::Draw(const PreparedLogs& logs) const {
 
 void Verifier::VerifyOnLogs(const LogInput& input, VerifySummary* summary) {
   report_.logs = NamesOf(input.logs);
-  if (!options_.controller.empty() && CloseLoop(input)) return;
   for (const DataFinding& found :
        MendPositions(file_, UsedParts({&input}), &options_.reading)) {
     report_.warnings.push_back(found.finding + ": " + found.evidence + "; " +
                                found.flag);
   }
+  if (!options_.controller.empty() && CloseLoop(input)) return;
   const LogSet logs(input.logs, options_.reading, input.crop);
   if (calibrated_) report_.seen_logs = SeenLogs(logs);
   PreparationOptions prepared;

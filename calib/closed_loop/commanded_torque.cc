@@ -107,7 +107,9 @@ MatrixXd CommandedTorque(const Robot& known,
       impulse.Add(torque);
     }
   }
-  const double half = duration / (2. * (commanded.log.size() - 1));
+  // Rows that are left out are rows of commands.
+  const int rows = std::max(commanded.log.size(), commanded.command.size());
+  const double half = duration / (2. * (rows - 1));
   MatrixXd torque(times.size(), n);
   for (Eigen::Index row = 0; row < times.size(); ++row) {
     torque.row(row) = impulse.Mean(times[row] - half, times[row] + half);
@@ -140,6 +142,7 @@ ReconstructedTorque ReconstructTorque(const Robot& known,
   result.torque_noise = torque(other) - tau;
   other.log.q = log.q;
   other.log.t = log.t / (1 + kRate);
+  other.command.t = commanded.command.t / (1 + kRate);
   result.by_rate = (tau - torque(other)) / kRate;
   result.drifts = std::any_of(controller.drives.begin(),
                               controller.drives.end(), &Integrates);

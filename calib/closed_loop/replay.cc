@@ -68,40 +68,59 @@ CommandedLog ReadCommandedLog(const LogSource& source,
                               const TimeRange& crop) {
   LogReaderOptions options = given;
   options.commands_do = true;
-  return CommandedRows(source.name, ReadWholeLog(source, options), crop);
+  options.left_out.clear();
+  return CommandedRows(source.name, ReadWholeLog(source, options), crop, given);
 }
 
-// Rows whose stamp does not grow are left out: a clock that repeats has no
+// Rows whose stamp does not grow are left out, too: a clock that repeats has no
 // motion.
 CommandedLog CommandedRows(const std::string& path, const Log& all,
-                           const TimeRange& crop) {
+                           const TimeRange& crop,
+                           const LogReaderOptions& options) {
   if (all.qref.size() == 0) {
     throw InputError(path, "header", "",
                      "expected a column qref1.. for every joint, the command "
                      "that " +
                          OptionName("controller") + " is to follow");
   }
-  std::vector<int> rows;
+  const std::vector<RowRange> left_out = options.LeftOutOf(path);
+  std::vector<int> rows, commands;
   for (int k = 0; k < all.size(); ++k) {
-    const bool repeated = !rows.empty() && all.t[k] <= all.t[rows.back()];
-    if (crop.Contains(all.t[k]) && !repeated) rows.push_back(k);
+    const bool repeated =
+        !commands.empty() && all.t[k] <= all.t[commands.back()];
+    if (!crop.Contains(all.t[k]) || repeated) continue;
+    const bool is_right =
+        std::none_of(left_out.begin(), left_out.end(),
+                     [k](const RowRange& range) { return range.Contains(k); });
+    if (is_right) rows.push_back(k);
+    if (!rows.empty()) commands.push_back(k);
   }
   if (rows.empty() || all.t[rows.back()] - all.t[rows.front()] <= kCatchUp) {
     throw InputError(path, "", "",
                      "expected more than a second of time to simulate");
   }
-  CommandedLog commanded{path, {}, all.t[rows.front()]};
+  CommandedLog commanded;
+  commanded.path = path;
+  commanded.begin = all.t[rows.front()];
   Log& log = commanded.log;
   log.t = all.t(rows).array() - all.t[rows.front()];
   log.q = all.q(rows, Eigen::all);
   if (all.tau.size() > 0) log.tau = all.tau(rows, Eigen::all);
   log.qref = all.qref(rows, Eigen::all);
   log.first_row = all.first_row + rows.front();
+  while (commands.back() > rows.back()) commands.pop_back();
+  if (commands.size() > rows.size()) {
+    commanded.command.t = all.t(commands).array() - all.t[rows.front()];
+    commanded.command.qref = all.qref(commands, Eigen::all);
+    commanded.command.first_row = log.first_row;
+  }
   return commanded;
 }
 
 ReferenceMotion CommandedMotion(const CommandedLog& commanded) {
-  return MotionThrough(commanded.path, CommandOf(commanded.log));
+  const bool is_apart = commanded.command.size() > 0;
+  return MotionThrough(commanded.path,
+                       CommandOf(is_apart ? commanded.command : commanded.log));
 }
 
 int FirstCounted(const Log& log) {

@@ -18,16 +18,21 @@ struct CommandedLog {
   std::string path;
   Log log;  // times from 0: positions, qref and, where it has it, torque
   double begin = 0;  // of them, s since the log's first row
+  // The command (t and qref) also in rows whose positions are left out, which
+  // the drives followed all the same; empty: there are none.
+  Log command{};
 };
 
-// The rows of a log within `crop`. Throws InputError where it has no qref
-// columns, more than 2^20 rows or nothing is left.
+// The rows of a log within `crop` that are not left out
+// (LogReaderOptions::left_out). Throws InputError where it has no qref columns,
+// more than 2^20 rows or nothing is left.
 CommandedLog ReadCommandedLog(const LogSource& source,
                               const LogReaderOptions& options,
                               const TimeRange& crop);
-// The same of a log that has been read.
+// The same of a log that has been read, with the rows to leave out.
 CommandedLog CommandedRows(const std::string& path, const Log& all,
-                           const TimeRange& crop);
+                           const TimeRange& crop,
+                           const LogReaderOptions& options);
 
 // The command as a motion: before and after the rows as at their ends.
 ReferenceMotion CommandedMotion(const CommandedLog& commanded);

@@ -66,6 +66,7 @@ class Inspector {
     if (drawn_bins > 0) result_.drawing = DrawLog(log_, drawn_bins);
     result_.jumps = FindPositionJumps(robot_, log_);
     MendJumps(result_.jumps, &log_);
+    AddZerosLostAtRest(robot_, log_, &result_.jumps);
     result_.findings =
         AuditChannels(robot_, log_, result_.stamps, torque_units_);
     const auto held = AuditHeldValues(robot_, log_);

@@ -109,10 +109,13 @@ class Reader {
     return best;
   }
 
-  // What a unit that has a hint leaves has to be less; no more is asked, as the
-  // inertias of links that move a thousand times as far are free enough to
-  // explain much of it: all of it where joints only slide. Then torques cannot
-  // choose, and where the joints can be does, if torques do not object.
+  // What a unit that has a hint leaves has to be less; held-out torques are not
+  // asked for more, as the inertias of links that move a thousand times as far
+  // are free enough to explain much of it: all of it where joints only slide.
+  // Then torques cannot choose, and where the joints can be does, if torques do
+  // not object. Limits are the file's, though, and may be placeholders: without
+  // recorded velocities and the gain that any other reading needs it is a
+  // doubt, and a limit of speed alone tells nothing.
   void TakeHintedUnits() {
     const std::pair<Kind, PositionUnitHint> hinted[] = {
         {Kind::kDegrees, hints_.units.degrees},
@@ -126,8 +129,12 @@ class Reader {
           hint.out_of_reach
               ? IsClearlyBetter(held_out, state_.held_out, {})
               : held_out.residual_percent >= state_.held_out.residual_percent;
-      if (!objects)
-        state_.Accept(candidate, state_.Misfit(candidate.reading), 1, held_out);
+      const double misfit = state_.Misfit(candidate.reading);
+      const bool is_sure =
+          hint.by_velocities || misfit < state_.misfit - kLeastReadingGain;
+      candidate.change.is_doubt = !is_sure;
+      if (!objects && (is_sure || hint.out_of_reach))
+        state_.Accept(candidate, misfit, 1, held_out);
     }
   }
 

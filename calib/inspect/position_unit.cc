@@ -57,7 +57,8 @@ class Hints {
 
   PositionUnitHint Of(const PositionUnits& units) const {
     PositionUnitHint hint = OfLimits(units);
-    if (VelocitiesTell(units))
+    hint.by_velocities = VelocitiesTell(units);
+    if (hint.by_velocities)
       hint.evidence = "the recorded velocities are the positions' slopes then";
     return hint;
   }

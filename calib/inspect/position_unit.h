@@ -28,6 +28,8 @@ struct PositionUnitHint {
   std::string evidence;  // empty: nothing
   // Positions are where the joints cannot be as logged, and can in that unit.
   bool out_of_reach = false;
+  // Recorded velocities say so by themselves.
+  bool by_velocities = false;
 };
 
 struct PositionUnitHints {

@@ -55,7 +55,8 @@ struct ReadingChange {
   // that would do as well, since nothing tells which way a joint turns, or what
   // an arm of two joints is like.
   std::vector<ReadingChange> alternatives{};
-  std::string hint{};  // what speaks for it beside torques
+  std::string hint{};     // what speaks for it beside torques
+  bool is_doubt = false;  // it may be the robot file that is wrong
   // Of all torques' signs: the joints whose torques are right as logged.
   std::vector<int> but{};
 };

@@ -109,6 +109,7 @@ InspectionFinding FindingOf(const ReadingChange& change,
       change.held_out_before, change.held_out_after, change.gain);
   if (!change.hint.empty()) finding.evidence += "; " + change.hint;
   finding.remedy = OptionName("fix") + " writes the log so";
+  const std::string perhaps = change.is_doubt ? "perhaps " : "";
   switch (change.kind) {
     case Kind::kExchanged:
       finding.finding = "joint_order";
@@ -130,19 +131,20 @@ InspectionFinding FindingOf(const ReadingChange& change,
       break;
     case Kind::kDegrees:
       finding.finding = "position_unit";
-      finding.sentence = change.joint < 0
-                             ? "positions are in degrees, not in rad"
-                             : "the position of " + JointNames(change, robot) +
-                                   " is in degrees, not in rad as the others";
+      finding.sentence =
+          change.joint < 0
+              ? "positions are " + perhaps + "in degrees, not in rad"
+              : "the position of " + JointNames(change, robot) + " is " +
+                    perhaps + "in degrees, not in rad as the others";
       finding.remedy = "name the columns q1[deg] ..., or " + OptionName("fix");
       break;
     case Kind::kMillimetres:
       finding.finding = "position_unit";
-      finding.sentence =
-          change.joint < 0
-              ? "positions of joints that slide are in mm, not in m"
-              : "the position of " + JointNames(change, robot) +
-                    " is in mm, not in m";
+      finding.sentence = change.joint < 0
+                             ? "positions of joints that slide are " + perhaps +
+                                   "in mm, not in m"
+                             : "the position of " + JointNames(change, robot) +
+                                   " is " + perhaps + "in mm, not in m";
       finding.remedy = "name their columns q3[mm] ..., or " + OptionName("fix");
       break;
     case Kind::kGravity:

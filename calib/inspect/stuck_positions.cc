@@ -47,10 +47,44 @@ std::vector<EqualRows> RunsInMotion(const VectorXd& t, const VectorXd& q) {
   return runs;
 }
 
-}  // namespace
+// Whether a joint goes faster than one that rests for kShortestStuck from row
+// `row` on, by `way`: 1 or, into the past, -1. One that turns round meanwhile
+// has gone on the way.
+bool MovesFrom(const VectorXd& t, const VectorXd& q, Eigen::Index row,
+               int way) {
+  double gone = 0;
+  for (Eigen::Index k = row; k >= 0 && k < q.size(); k += way) {
+    if (std::abs(t[k] - t[row]) > kShortestStuck) break;
+    gone = std::max(gone, std::abs(q[k] - q[row]));
+  }
+  return gone > kSlowestGoing * kShortestStuck;
+}
 
-std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
-                                              const Log& log) {
+// The speed from a row to the third one from it; 0 at the ends of a log.
+double SpeedAt(const VectorXd& t, const VectorXd& q, Eigen::Index row,
+               int way) {
+  const Eigen::Index to = row + 3 * way;
+  if (to < 0 || to >= q.size() || t[to] == t[row]) return 0;
+  return std::abs((q[to] - q[row]) / (t[to] - t[row]));
+}
+
+// Whether the step after rows of one number is of the joint's zero, and not of
+// the way that it has gone meanwhile. It is where the joint rests before or
+// after, and the step is farther than it would come at the speed that it had
+// before or has after: coming to rest, or starting, it would go less far.
+bool IsOfZero(const VectorXd& t, const VectorXd& q, const EqualRows& run) {
+  if (MovesFrom(t, q, run.begin, -1) && MovesFrom(t, q, run.end, 1)) {
+    return false;
+  }
+  const double fastest =
+      std::max(SpeedAt(t, q, run.begin, -1), SpeedAt(t, q, run.end, 1));
+  return std::abs(q[run.end] - q[run.begin]) >
+         fastest * (t[run.end] - t[run.begin]);
+}
+
+// Rows of one number that end in a jump: of the joint's zero, or not.
+std::vector<FrozenChannel> RunsThatJump(const Robot& robot, const Log& log,
+                                        bool of_zero) {
   std::vector<PositionSteps> steps;
   for (int j = 0; j < robot.num_joints(); ++j) {
     steps.push_back(FindJumps(log.t, log.q.col(j)));
@@ -70,7 +104,7 @@ std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
         alone = alone && (other == j || !IsJump(log.t, log.q.col(other),
                                                 steps[other], run.end));
       }
-      if (!alone) continue;
+      if (!alone || IsOfZero(log.t, q, run) != of_zero) continue;
       of_joint.push_back({j, true, run.begin, run.end, q[run.begin], 0, 0, 0,
                           q[run.end] - q[run.begin]});
     }
@@ -79,6 +113,24 @@ std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
     stuck.insert(stuck.end(), of_joint.begin(), of_joint.end());
   }
   return stuck;
+}
+
+}  // namespace
+
+std::vector<FrozenChannel> FindStuckPositions(const Robot& robot,
+                                              const Log& log) {
+  return RunsThatJump(robot, log, false);
+}
+
+void AddZerosLostAtRest(const Robot& robot, const Log& log, LogJumps* jumps) {
+  for (const FrozenChannel& rest : RunsThatJump(robot, log, true)) {
+    auto& steps = jumps->joints[rest.joint].steps;
+    const auto after =
+        std::find_if(steps.begin(), steps.end(),
+                     [&](const auto& step) { return step.row >= rest.end; });
+    if (after != steps.end() && after->row == rest.end) continue;
+    steps.insert(after, {rest.end, rest.jump});
+  }
 }
 
 std::vector<FrozenChannel> FindAllFrozenChannels(const Robot& robot,

@@ -46,18 +46,25 @@ std::vector<LogParts> PartsOf(const std::vector<UsedLog>& used) {
   return logs;
 }
 
-// Whether a diagnosis of this part of a log, read so, has 2 s of motion.
+// Whether a diagnosis of this part of a log, read so, has 2 s of motion. What
+// is too short to be read as a log has not.
 bool IsEnoughLeft(const LogSource& log, const TimeRange& crop,
                   const std::optional<double>& bandwidth_hz,
                   const LogReaderOptions& reading) {
-  const LogSet left({log}, reading, crop);
-  double moving = 0;
-  for (const GapSegment& segment : ReadSegments(
-           bandwidth_hz.value_or(DiagnosisBandwidth(left.time_bases())), {},
-           left)) {
-    moving += segment.motion.dt * static_cast<double>(segment.motion.size());
+  try {
+    const LogSet left({log}, reading, crop);
+    double moving = 0;
+    for (const GapSegment& segment : ReadSegments(
+             bandwidth_hz.value_or(DiagnosisBandwidth(left.time_bases())), {},
+             left)) {
+      moving += segment.motion.dt * static_cast<double>(segment.motion.size());
+    }
+    return moving >= kShortestSegment;
+  } catch (const ChangedFile&) {
+    throw;
+  } catch (const InputError&) {
+    return false;
   }
-  return moving >= kShortestSegment;
 }
 
 // What is not read of a log, or otherwise, and what is to be said of it.
@@ -65,7 +72,15 @@ struct MendedLog {
   std::vector<PositionTurn> turns;
   std::vector<RowRange> rows;
   std::vector<DataFinding> findings;
+  // Too little would be left without rows that are wrong: they stay.
+  bool keeps_wrong_rows = false;
 };
+
+constexpr char kWrongRowsStay[] =
+    ", and less than 2 s would be left without these rows, which stay";
+constexpr char kNotTrusted[] =
+    "nothing of such positions is to be trusted: record more of this motion, "
+    "or leave this log out";
 
 bool IsUsed(const LogParts& parts, double begin, double end) {
   return std::any_of(parts.crops.begin(), parts.crops.end(),
@@ -86,21 +101,46 @@ std::vector<RowRange> UsedRows(const LogParts& parts,
   return used;
 }
 
+// Whether each used part that loses rows has kShortestSegment left of the time
+// between rows that follow each other.
+bool IsTimeLeft(const std::vector<RowRange>& used, const Eigen::VectorXd& t,
+                const std::vector<RowRange>& left_out) {
+  const auto is_left = [&](long row) {
+    return std::none_of(
+        left_out.begin(), left_out.end(),
+        [row](const RowRange& rows) { return rows.Contains(row); });
+  };
+  return std::all_of(used.begin(), used.end(), [&](const RowRange& part) {
+    double left = 0;
+    bool loses = false, before = false;
+    for (long k = part.begin; k < part.end; ++k) {
+      const bool now = is_left(k);
+      loses = loses || !now;
+      if (before && now) left += t[k] - t[k - 1];
+      before = now;
+    }
+    return !loses || left >= kShortestSegment;
+  });
+}
+
 // Those that are in a used part lead a diagnosis.
-std::vector<DataFinding> ToldOfFrozen(
-    const Robot& robot, const LogParts& parts, const Log& log,
-    const std::vector<FrozenChannel>& frozen) {
+std::vector<DataFinding> ToldOfFrozen(const Robot& robot, const LogParts& parts,
+                                      const Log& log,
+                                      const std::vector<FrozenChannel>& frozen,
+                                      bool stay) {
   std::vector<DataFinding> told;
   const auto findings = FrozenFindings(robot, log.t, frozen);
   for (size_t k = 0; k < frozen.size(); ++k) {
     if (!IsUsed(parts, log.t[frozen[k].begin], log.t[frozen[k].end - 1])) {
       continue;
     }
-    told.push_back({"of " + parts.log.name + " " + findings[k].sentence +
-                        ", and these rows are left out",
-                    findings[k].evidence,
-                    "what follows is of the log without them, of all joints",
-                    true});
+    told.push_back(
+        {"of " + parts.log.name + " " + findings[k].sentence +
+             (stay ? kWrongRowsStay : ", and these rows are left out"),
+         findings[k].evidence,
+         stay ? kNotTrusted
+              : "what follows is of the log without them, of all joints",
+         true});
   }
   return told;
 }
@@ -108,7 +148,8 @@ std::vector<DataFinding> ToldOfFrozen(
 // Of wraps and lost zeros. These lead a diagnosis, since rows are lost with
 // them; turns are none of the motion, and nothing is lost.
 std::vector<DataFinding> ToldOfJumps(const Robot& robot, const LogParts& parts,
-                                     const Log& log, LogJumps jumps) {
+                                     const Log& log, LogJumps jumps,
+                                     bool stay) {
   const auto is_unused = [&](const PositionJumps::Step& step) {
     return std::none_of(parts.crops.begin(), parts.crops.end(),
                         [&](const TimeRange& crop) {
@@ -130,12 +171,15 @@ std::vector<DataFinding> ToldOfJumps(const Robot& robot, const LogParts& parts,
       told.push_back({sentence + ", and these turns are taken out",
                       found.evidence, "log positions that go on"});
     } else if (found.finding == "position_jump") {
-      told.push_back({sentence + ", and the rows of its shorter side are left "
-                                 "out",
-                      found.evidence,
-                      "what follows is of the log without them: its zero is "
-                      "another one there",
-                      true});
+      told.push_back(
+          {sentence + (stay ? kWrongRowsStay
+                            : ", and the rows of its shorter side are left "
+                              "out"),
+           found.evidence,
+           stay ? kNotTrusted
+                : "what follows is of the log without them: its zero is "
+                  "another one there",
+           true});
     }
   }
   return told;
@@ -159,7 +203,7 @@ using RowSearch = std::function<std::vector<FrozenChannel>(
 MendedLog MendedOf(const Robot& robot, const LogParts& parts,
                    const RowSearch& find_frozen, double mean_step, Log log) {
   MendedLog mended;
-  const LogJumps jumps = FindPositionJumps(robot, log);
+  LogJumps jumps = FindPositionJumps(robot, log);
   AddTurns(jumps, false, &mended.turns);
   if (!mended.turns.empty() && log.qref.size() > 0) {
     Log commands;  // follow the encoder's turns, at rows of their own
@@ -168,19 +212,33 @@ MendedLog MendedOf(const Robot& robot, const LogParts& parts,
     AddTurns(FindPositionJumps(robot, commands), true, &mended.turns);
   }
   MendJumps(jumps, &log);
+  AddZerosLostAtRest(robot, log, &jumps);
   const std::vector<FrozenChannel> frozen = find_frozen(log, jumps, mean_step);
   mended.rows = RowsOf(frozen);
-  for (RowRange rows :
-       RowsOfOtherZeros(jumps, log.size(), UsedRows(parts, log.t))) {
+  const std::vector<RowRange> used = UsedRows(parts, log.t);
+  for (RowRange rows : RowsOfOtherZeros(jumps, log.size(), used)) {
     // More rows than are inspected are as the last of these.
     const bool is_cut = log.size() == kMostInspectedRows;
     if (is_cut && rows.end == log.size()) rows.end = LONG_MAX;
     mended.rows.push_back(rows);
   }
-  mended.findings = ToldOfFrozen(robot, parts, log, frozen);
-  const auto told = ToldOfJumps(robot, parts, log, jumps);
+  const bool stay = !IsTimeLeft(used, log.t, mended.rows);
+  mended.keeps_wrong_rows = stay;
+  if (stay) mended.rows.clear();
+  mended.findings = ToldOfFrozen(robot, parts, log, frozen, stay);
+  const auto told = ToldOfJumps(robot, parts, log, jumps, stay);
   mended.findings.insert(mended.findings.end(), told.begin(), told.end());
   return mended;
+}
+
+// A log's parts in s, by what its stamps have to be multiplied by: a crop is in
+// the log's own unit.
+LogParts InSeconds(LogParts parts, double unit) {
+  for (TimeRange& crop : parts.crops) {
+    crop.begin *= unit;
+    crop.end *= unit;
+  }
+  return parts;
 }
 
 // Of a log as an inspection reads it. What cannot be read at all is refused
@@ -195,8 +253,8 @@ MendedLog MendedRead(const Robot& robot, const LogParts& parts,
     const StampFigures stamps = AuditStamps(log);
     if (!(stamps.unit > 0)) return {};
     log.t *= stamps.unit;
-    return MendedOf(robot, parts, find_frozen, stamps.mean_step,
-                    std::move(log));
+    return MendedOf(robot, InSeconds(parts, stamps.unit), find_frozen,
+                    stamps.mean_step, std::move(log));
   } catch (const ChangedFile&) {
     throw;
   } catch (const InputError&) {
@@ -225,22 +283,19 @@ MendedLog StuckRowsIn(const Robot& robot, const LogParts& parts,
                  [&](const Log& log, const LogJumps& jumps, double mean_step) {
                    return FindAllFrozenChannels(robot, log, jumps, mean_step);
                  });
-  if (mended.rows.empty()) return mended;
+  bool stay = mended.keeps_wrong_rows;
   reading.left_out[parts.log.name] = mended.rows;
   reading.position_turns[parts.log.name] = mended.turns;
-  try {
-    for (const TimeRange& crop : parts.crops) {
-      if (IsEnoughLeft(parts.log, crop, bandwidth_hz, reading)) continue;
-      mended.rows.clear();
-      auto& told = mended.findings;
-      told.erase(std::remove_if(told.begin(), told.end(),
-                                [](const auto& one) { return one.leads; }),
-                 told.end());
-      break;
-    }
-  } catch (const InputError&) {
-    return {};
+  for (const TimeRange& crop : parts.crops) {
+    stay = stay || (!mended.rows.empty() &&
+                    !IsEnoughLeft(parts.log, crop, bandwidth_hz, reading));
   }
+  if (!stay) return mended;
+  mended.rows.clear();
+  auto& told = mended.findings;
+  told.erase(std::remove_if(told.begin(), told.end(),
+                            [](const auto& one) { return one.leads; }),
+             told.end());
   return mended;
 }
 

@@ -25,6 +25,8 @@ struct UsedLog {
 // one that the joint has for most of the log (RowsOfOtherZeros): which one is
 // right, nobody knows, and two of them are no motion. Both are looked for in a
 // log's first kMostInspectedRows rows. What was done is told of the used parts.
+// No rows of a log are left out where a used part would be left with less than
+// 2 s, which is told: nothing is to be trusted then.
 std::vector<DataFinding> MendPositions(const Robot& robot,
                                        const std::vector<UsedLog>& used,
                                        LogReaderOptions* reading);

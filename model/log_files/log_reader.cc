@@ -48,8 +48,7 @@ struct LogReader::Impl {
     CheckTorqueFactors(options);
     const auto timed = options.sample_times.find(path);
     if (timed != options.sample_times.end()) sample_times = timed->second;
-    const auto holes = options.left_out.find(path);
-    if (holes != options.left_out.end()) left_out = holes->second;
+    left_out = options.LeftOutOf(path);
     const auto wrapped = options.position_turns.find(path);
     if (wrapped != options.position_turns.end()) turns = wrapped->second;
     q = row.Use(columns.Find(Signal::kPosition));

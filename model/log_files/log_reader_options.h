@@ -66,6 +66,10 @@ struct LogReaderOptions {
   // Lines of a file that messages name (Log::first_row) count on as if there
   // were none.
   std::map<std::string, std::vector<RowRange>> left_out;
+  std::vector<RowRange> LeftOutOf(const std::string& path) const {
+    const auto rows = left_out.find(path);
+    return rows == left_out.end() ? std::vector<RowRange>() : rows->second;
+  }
   // By path: turns that are taken out of positions as they are read.
   std::map<std::string, std::vector<PositionTurn>> position_turns;
   // Columns that are in the log and not wanted are not looked at.

@@ -1,6 +1,7 @@
 #include "model/log_files/open_lines.h"
 
 #include <filesystem>
+#include <string_view>
 
 #include "model/log_files/array_source.h"
 #include "model/log_files/bag_source.h"
@@ -16,8 +17,32 @@
 namespace armcal {
 namespace {
 
-// What is told apart to say what to do about it.
+// A format that is not read, told by its first bytes, and what to do about it.
+struct ForeignFormat {
+  std::string_view begins;
+  const char* advice;
+};
+
 void RefuseOthers(const std::string& path, const std::string& first) {
+  static const ForeignFormat kForeign[] = {
+      {"\x93NUMPY",
+       "is a single NumPy array, whose columns have no names: save all arrays "
+       "by name with numpy.savez"},
+      {"\x89HDF\r\n\x1a\n",
+       "is an HDF5 file, of which MATLAB's alone are read: open it with h5py "
+       "and save its arrays by name with numpy.savez"},
+      {"ARROW1",
+       "is an Arrow (Feather) file: read it with pandas.read_feather and write "
+       "it with to_csv"},
+      {"ULog\x01\x12\x35",
+       "is a ULog of PX4: `ulog2csv` makes CSV of its topics"},
+      {"\xfd"
+       "7zXZ",
+       "is packed by xz: unpack it, or pack it with gzip"},
+      {"7z\xbc\xaf", "is packed by 7-Zip: unpack it, or pack it with gzip"},
+      {"\xd0\xcf\x11\xe0",
+       "is a workbook of Excel: save its sheet as CSV (UTF-8)"},
+  };
   if (first.rfind("#ROSBAG", 0) == 0) {
     throw InputError(path, "", "",
                      "is a bag of ROS 1: `python3 -m armcal.convert " + path +
@@ -31,6 +56,16 @@ void RefuseOthers(const std::string& path, const std::string& first) {
   if (IsZstd(first)) {
     throw InputError(path, "", "",
                      "is packed by zstd as a whole: unpack it with unzstd");
+  }
+  // A digit is between the two, how well it packs.
+  if (first.rfind("BZh", 0) == 0 && first.find("1AY&SY") == 4) {
+    throw InputError(path, "", "",
+                     "is packed by bzip2: unpack it, or pack it with gzip");
+  }
+  for (const ForeignFormat& format : kForeign) {
+    if (first.compare(0, format.begins.size(), format.begins) == 0) {
+      throw InputError(path, "", "", format.advice);
+    }
   }
 }
 

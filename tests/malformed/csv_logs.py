@@ -1,5 +1,7 @@
 """Logs in CSV, plain or gzipped."""
 
+import bz2
+
 from inputs import (ARM, HEADER, LOG, SAMPLES, Group, Row, a_folder, both, compressed,
                     cut, edited, headed, linked, nothing, padded, removed, with_row, written)
 
@@ -10,6 +12,10 @@ def epoch(decimals):
         f"{17 * 10**(8 + decimals) + k * 10**(decimals - 3)},{k / 100:g},0.5,2,1\n"
         for k in range(40))
 
+
+JSON = ("log.csv: row 1: is JSON, expected CSV, NumPy's .npz, MATLAB's .mat or a bag of ROS 2: "
+        "load it in Python and write its lists with numpy.savez, or its records with "
+        "pandas.DataFrame(records).to_csv")
 
 GROUPS = [Group(
     "csv", "calibrate --robot=robot.yaml --log=log.csv --out=out",
@@ -51,9 +57,29 @@ GROUPS = [Group(
     Row("HTML", written("log.csv", "<!DOCTYPE html>\n<html><body>404</body></html>\n"),
         "log.csv: row 1: expected several columns separated by , ; or TAB, found '<!DOCTYPE "
         "html>'"),
-    Row("JSON", written("log.csv", '{"t": [0, 1], "q1": [0, 1]}\n'),
-        "log.csv: row 1: no time column: expected t, time, timestamp or __time; not "
-        'recognised: \'{"t": [0\', \'1]\', \'q1": [0\', \'1]}\''),
+    Row("JSON", written("log.csv", '{"t": [0, 1], "q1": [0, 1]}\n'), JSON),
+    Row("JSON over many lines", written("log.csv", '{\n  "t": [0, 1],\n  "q1": [0, 1]\n}\n'), JSON),
+    Row("records in JSON", written("log.csv", '[{"t": 0, "q1": 1}, {"t": 1, "q1": 1}]\n'), JSON),
+    Row("JSON packed by gzip", written("log.csv", compressed('{"t": [0, 1]}\n')), JSON),
+    Row("a single NumPy array", written("log.csv", b"\x93NUMPY\1\0" + bytes(118)),
+        "log.csv: is a single NumPy array, whose columns have no names: save all arrays by "
+        "name with numpy.savez"),
+    Row("HDF5", written("log.csv", b"\x89HDF\r\n\x1a\n" + bytes(100)),
+        "log.csv: is an HDF5 file, of which MATLAB's alone are read: open it with h5py and "
+        "save its arrays by name with numpy.savez"),
+    Row("Feather", written("log.csv", b"ARROW1\0\0" + bytes(100)),
+        "log.csv: is an Arrow (Feather) file: read it with pandas.read_feather and write it "
+        "with to_csv"),
+    Row("ULog", written("log.csv", b"ULog\x01\x12\x35\x01" + bytes(8)),
+        "log.csv: is a ULog of PX4: `ulog2csv` makes CSV of its topics"),
+    Row("packed by xz", written("log.csv", b"\xfd7zXZ\0" + bytes(40)),
+        "log.csv: is packed by xz: unpack it, or pack it with gzip"),
+    Row("packed by bzip2", written("log.csv", bz2.compress(LOG.encode())),
+        "log.csv: is packed by bzip2: unpack it, or pack it with gzip"),
+    Row("packed by 7-Zip", written("log.csv", b"7z\xbc\xaf\x27\x1c" + bytes(40)),
+        "log.csv: is packed by 7-Zip: unpack it, or pack it with gzip"),
+    Row("workbook of Excel", written("log.csv", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(504)),
+        "log.csv: is a workbook of Excel: save its sheet as CSV (UTF-8)"),
     Row("ROS 1 bag", written("log.csv", b"#ROSBAG V2.0\nE\0\0\0"),
         "log.csv: is a bag of ROS 1: `python3 -m armcal.convert log.csv FOLDER` makes one "
         "of ROS 2"),

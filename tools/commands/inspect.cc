@@ -29,7 +29,10 @@ InspectOptions InspectOptionsFromFlags(const CommandInput& input) {
   }
   options.controller = flags.Text("controller");
   if (!options.controller.empty() && options.exports.empty()) {
-    throw UsageError("--controller is for --export=mjcf, which writes drives");
+    throw UsageError(
+        "--controller is for --export=mjcf, which writes drives; to inspect a "
+        "log of commands leave it out (diagnose, calibrate and verify follow "
+        "commands with it)");
   }
   options.progress = input.progress;
   return options;

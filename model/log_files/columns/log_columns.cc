@@ -46,6 +46,16 @@ bool EndsWithPart(std::string_view path, std::string_view part) {
   return path.substr(rest) == part && (rest == 0 || path[rest - 1] == '/');
 }
 
+// JSON begins with an object or a list, and what stands in it with a quote, a
+// number, another object or list, or on the next line. No column is named so.
+bool IsJson(std::string_view header) {
+  if (header.empty() || (header[0] != '{' && header[0] != '[')) return false;
+  const std::string_view inside = Trim(header.substr(1), " \t");
+  return inside.empty() ||
+         std::string_view("\"'{[}]-0123456789").find(inside[0]) !=
+             std::string_view::npos;
+}
+
 }  // namespace
 
 LogColumns::LogColumns(const std::string& file, std::string_view header,
@@ -55,6 +65,12 @@ LogColumns::LogColumns(const std::string& file, std::string_view header,
   // numpy.savetxt makes the header a comment.
   if (!header.empty() && header.front() == '#') header.remove_prefix(1);
   header = Trim(header, " ");
+  if (IsJson(header)) {
+    Refuse(
+        "is JSON, expected CSV, NumPy's .npz, MATLAB's .mat or a bag of ROS 2: "
+        "load it in Python and write its lists with numpy.savez, or its "
+        "records with pandas.DataFrame(records).to_csv");
+  }
   separator_ = FindSeparator(header);
   for (size_t begin = 0; begin <= header.size();) {
     const size_t end = std::min(header.find(separator_, begin), header.size());

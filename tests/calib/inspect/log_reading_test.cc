@@ -84,6 +84,34 @@ TEST_F(LogReadingTest, TorquesInAnotherOrder) {
   }
 }
 
+// Noise in the torques' place tells no unit, and fits better by chance in a
+// half of all cases: limits of speed say nothing then, and limits of position
+// that it may be so. Recorded velocities need no torques.
+TEST_F(LogReadingTest, AUnitThatTorquesDoNotTellIsADoubt) {
+  const auto doubts_of = [&](const PositionUnitHint& hint, bool is_doubt) {
+    int count = 0;
+    std::mt19937_64 random(3);
+    for (int k = 0; k < 6; ++k) {
+      log_.tau.setZero();
+      AddNoise(&random, Eigen::VectorXd::Ones(log_.tau.cols()), &log_.tau);
+      ReadingHints hints;
+      hints.asks_gravity = false;
+      hints.units.degrees = hint;
+      const ReadingFinding found =
+          FindReading(robot_, UniformSeries(log_, .01, .05, 8), hints);
+      for (const ReadingChange& change : found.changes) {
+        if (change.kind != Kind::kDegrees) continue;
+        EXPECT_EQ(change.is_doubt, is_doubt);
+        ++count;
+      }
+    }
+    return count;
+  };
+  EXPECT_EQ(doubts_of({"a limit of speed", false, false}, false), 0);
+  EXPECT_GT(doubts_of({"limits of position", true, false}, true), 0);
+  EXPECT_GT(doubts_of({"velocities", true, true}, false), 0);
+}
+
 // The base's joint turns about gravity and the others rest: nothing tells which
 // way.
 TEST_F(LogReadingTest, TheSignOfEitherSignal) {

@@ -96,6 +96,30 @@ TEST_F(StuckPositionsTest, ARestIsNone) {
   EXPECT_TRUE(Stuck().empty());
 }
 
+// It loses its zero while it rests, or is not answered until it rests.
+TEST_F(StuckPositionsTest, AZeroLostInARestIsAJump) {
+  for (int k = 0; k < log_.size(); ++k) {
+    const double t = std::max(0., std::sin(.01 * k));
+    log_.q(k, 0) = t * t;
+  }
+  const int lost = 470;  // the joint rests from row 315 to row 628
+  Log at_rest = log_;
+  at_rest.q.col(0).tail(log_.size() - lost).array() += .3;
+  EXPECT_TRUE(FindStuckPositions(arm_.robot, at_rest).empty());
+  LogJumps jumps = FindPositionJumps(arm_.robot, at_rest);
+  AddZerosLostAtRest(arm_.robot, at_rest, &jumps);
+  ASSERT_EQ(jumps.joints[0].steps.size(), 1u);
+  EXPECT_EQ(jumps.joints[0].steps[0].row, lost);
+  EXPECT_NEAR(jumps.joints[0].steps[0].size, .3, 1e-12);
+  Hold(240, 120, 0);  // from motion to rest
+  const std::vector<FrozenChannel> stuck = Stuck();
+  ASSERT_EQ(stuck.size(), 1u);
+  EXPECT_EQ(stuck[0].end, 360);
+  jumps = FindPositionJumps(arm_.robot, log_);
+  AddZerosLostAtRest(arm_.robot, log_, &jumps);
+  EXPECT_TRUE(jumps.joints[0].steps.empty());
+}
+
 // Rows that were left out before count on.
 TEST_F(StuckPositionsTest, TorquesAreAskedWithoutThem) {
   Hold(at_, kRows, 1);

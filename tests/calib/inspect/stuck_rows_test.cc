@@ -244,6 +244,38 @@ TEST_F(WrongPositions, ACropOfOneZeroIsAsItWas) {
   }
 }
 
+// A crop is in the log's own unit, as all readers have it.
+TEST_F(WrongPositions, ACropOfALogInMillisecondsIsInThese) {
+  log_.q.col(1).tail(800).array() += .3;
+  const double at = 1e3 * log_.t[log_.size() - 800];
+  log_.t *= 1e3;
+  EXPECT_TRUE(Mend({0, at - 100}).empty());
+  reading_.left_out.clear();
+  EXPECT_EQ(Mend({at - 5000, at + 5000}).size(), 1u);
+}
+
+// Where too little would be left rows stay, and that is told.
+TEST_F(WrongPositions, OfTooLittleNothingIsLeftOut) {
+  log_.q.col(1).tail(800).array() += .3;
+  const double at = log_.t[log_.size() - 800];
+  const std::vector<DataFinding> told = Mend({at - 1.5, at + 1});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0].finding, HasSubstr("less than 2 s would be left"));
+  EXPECT_TRUE(reading_.left_out.empty());
+}
+
+// Turns are taken out where the rest of the log is too short to leave out rows.
+TEST_F(WrongPositions, TurnsOfAShortLogAreTakenOut) {
+  Wrap();
+  const int at = RowInMotion(arm_.log, 1);
+  log_.q.col(1).segment(at, 33).setConstant(log_.q(at, 1));
+  const double t = log_.t[at];
+  LeaveOutStuckRows(arm_.robot, {{LogSource("log.csv", log_), {t, t + .34}}},
+                    {}, &reading_);
+  EXPECT_TRUE(reading_.left_out.empty());
+  EXPECT_FALSE(reading_.position_turns["log.csv"].empty());
+}
+
 TEST_F(WrongPositions, RowsThatEndInAJumpAreLeftOut) {
   const int at = RowInMotion(arm_.log, 1);
   log_.q.col(1).segment(at, 33).setConstant(log_.q(at, 1));
