@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
+#include "calib/diagnose/select/form_error.h"
 
 namespace armcal {
 namespace {
@@ -129,6 +130,15 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
          !(one.effect->joint_term && HasMean(*other.effect, *one.effect));
 }
 
+// Stronger is what explains more than the k-th on the joints on which that
+// acts: an error of its form can be no larger there.
+bool GapEvidence::IsStrongerThere(size_t i, size_t k) const {
+  return DeltaChi2WhereActs(fit_.screen(), fit_.candidates(),
+                            fit_.selection().chosen, static_cast<int>(i),
+                            static_cast<int>(k)) >
+         fit_.selection().delta_chi2[k];
+}
+
 // `odds` is the log odds of this effect at this place against the next best
 // one, by a softmax of scores at the temperature T: scores are on the scale of
 // chi squared, of which half is a log likelihood, and T corrects that neither
@@ -157,7 +167,7 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
   const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
   for (size_t i = 0; i < delta_chi2.size(); ++i) {
-    if (delta_chi2[i] <= delta_chi2[k]) continue;
+    if (delta_chi2[i] <= delta_chi2[k] || !IsStrongerThere(i, k)) continue;
     ++evidence.stronger;
     evidence.stronger_beside += fit_.rows().num_joints() > 1 && IsBeside(i, k);
   }
