@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct PoseTerm {
   std::string unit;
   PostureSignal goes_with = {};  // what `signal` is made from
   Told told = {};                // of the amount, by others than the poses
+  // Below this the amount is nothing that there is, as a negative compliance.
+  double least = -std::numeric_limits<double>::infinity();
 };
 
 // One whose signal is that of the posture.
