@@ -35,6 +35,11 @@ bool AreNoGrossErrors(int outliers, int poses) {
          expected + kOneSided95 * std::sqrt(expected * (1 - kMostGrossErrors));
 }
 
+// A joint whose positions have to be negated turns by 1 - 2 times what it says.
+bool CountsTheOtherWay(const PoseCoupling& c) {
+  return c.joint == c.by && std::abs(c.factor + 2) <= kNormal95 * c.stddev;
+}
+
 void AddCoupling(const Robot& robot, const PoseCalibration& result,
                  Sentences* sentences) {
   if (!result.coupling) return;
@@ -50,6 +55,12 @@ void AddCoupling(const Robot& robot, const PoseCalibration& result,
   }
   k += ": correct the joint positions beside the poses";
   const std::string name = robot.links[c.joint].joint.name;
+  if (CountsTheOtherWay(c)) {
+    sentences->push_back("direction: " + name +
+                         " counts the other way than in the robot file: " +
+                         own + " (1 + k) with " + k);
+    return;
+  }
   if (c.joint == c.by) {
     sentences->push_back("gear ratio: " + name +
                          " turns by another factor than "

@@ -110,6 +110,16 @@ std::string EquivalentText(const PoseFinding& finding) {
          " there)\n";
 }
 
+// Of a gear ratio of -1: its joint's positions have to be negated.
+std::string DirectionText(const PoseFinding& finding,
+                          const PoseCampaign& campaign) {
+  if (!CountsTheOtherWay(finding)) return "";
+  return "         " +
+         campaign.robot().links[finding.placed.place.joint].joint.name +
+         " counts the other way than in the robot file: expected its "
+         "positions negated\n";
+}
+
 std::string FindingText(const PoseFinding& finding,
                         const PoseCampaign& campaign) {
   return Format("  %3.0f %%  ", 100 * finding.probability) + finding.name +
@@ -120,7 +130,7 @@ std::string FindingText(const PoseFinding& finding,
          SharePercent(finding.interleaved.removed_share) +
          SideText("begins", finding.begin, campaign, 0) +
          SideText("ends", finding.end, campaign, 1) + "\n" +
-          ToldText(finding) +
+         DirectionText(finding, campaign) + ToldText(finding) +
          EquivalentText(finding);
 }
 

@@ -67,6 +67,9 @@ struct PoseEffect {
   std::string separate_by;
   // Amounts of it that a fit may not reach from 0, beside 0.
   std::vector<double> far_amounts;
+  // Its amount where the joint counts the other way than its file; 0: it has
+  // none.
+  double turned_round_at = 0;
   // Its amounts are those of a sine and a cosine: of an amplitude.
   bool is_harmonic = false;
   // Beyond this much from 0 and from each of `far_amounts` it is another
