@@ -1,6 +1,7 @@
 #include "calib/poses/pose_readings.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 

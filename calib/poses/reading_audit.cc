@@ -11,7 +11,6 @@
 #include "calib/poses/pose_readings.h"
 #include "calib/poses/some_poses.h"
 #include "calib/poses/start.h"
-#include "model/text/enumeration.h"
 #include "model/text/format.h"
 #include "model/text/option_error.h"
 #include "model/text/option_name.h"
