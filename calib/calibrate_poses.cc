@@ -3,8 +3,8 @@
 #include "calib/calibrate_parts.h"
 #include "calib/calibration_details.h"
 #include "calib/poses/cross_validation.h"
+#include "calib/poses/reading_audit.h"
 #include "calib/poses/report.h"
-#include "calib/poses/unit_audit.h"
 #include "calib/poses/verdict.h"
 #include "calib/robot_outputs.h"
 #include "model/camera/camera_file.h"
@@ -68,9 +68,9 @@ CalibrateSummary CalibrateFromPoses(const Robot& robot,
   fit.prior_length = options.trust.length;
   fit.prior_angle = options.trust.angle;
   if (options.progress) options.progress("fitting the poses", -1);
-  RequireUnits(robot, *options.poses, "poses");
+  RequireReading(robot, *options.poses, "poses");
   if (options.pose_validation) {
-    RequireUnits(robot, *options.pose_validation, "validate");
+    RequireReading(robot, *options.pose_validation, "validate");
   }
   fit.loss = options.equations.loss
                  ? *options.equations.loss

@@ -20,7 +20,7 @@
 #include "calib/linear/verdict.h"
 #include "calib/log_doubts.h"
 #include "calib/log_readings.h"
-#include "calib/poses/unit_audit.h"
+#include "calib/poses/reading_audit.h"
 #include "calib/refine/far_masses.h"
 #include "calib/refine/impossible_robot.h"
 #include "calib/refine/nonlinear_report.h"
@@ -141,7 +141,7 @@ class TorqueCalibrator {
     CheckTarget(options_);
     CheckApart(logs, options.validation);
     CheckSelection(options_);
-    if (options_.poses) RequireUnits(robot_, *options_.poses, "poses");
+    if (options_.poses) RequireReading(robot_, *options_.poses, "poses");
   }
 
   CalibrateSummary Run();

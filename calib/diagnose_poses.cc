@@ -7,7 +7,7 @@
 #include "calib/poses/diagnosis/compliance_reader.h"
 #include "calib/poses/diagnosis/diagnosis.h"
 #include "calib/poses/diagnosis/report.h"
-#include "calib/poses/unit_audit.h"
+#include "calib/poses/reading_audit.h"
 #include "calib/refine/calibration_reader.h"
 #include "calib/refine/parameter_posterior.h"
 #include "calib/robot_outputs.h"
@@ -90,8 +90,12 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
                       "lengths or images: too many effects look like another "
                       "point");
   }
-  RequireUnits(robot, measured, "poses");
-  if (options.validation) RequireUnits(robot, *options.validation, "validate");
+  // A joint that counts the other way is a gear ratio of -1.
+  constexpr auto kTurned = TurnedJoints::kAreFindings;
+  RequireReading(robot, measured, "poses", kTurned);
+  if (options.validation) {
+    RequireReading(robot, *options.validation, "validate", kTurned);
+  }
   PoseDiagnosisOptions search;
   search.geometry = options.geometry;
   search.without = options.without;
@@ -110,6 +114,10 @@ DiagnosePosesSummary DiagnosePoses(const Robot& robot,
       search.weighed ? Weighed(robot, options.calibration) : robot;
   auto details =
       std::make_shared<PoseDiagnosis>(DiagnosePoseGap(arm, measured, search));
+  // Where the ratio of -1 is too far away for a fit to be found.
+  if (details->verdict == PoseVerdict::kNotTestable) {
+    RequireReading(robot, measured, "poses");
+  }
   DiagnosePosesSummary summary;
   summary.verdict = PoseVerdictName(details->verdict);
   for (const PoseFinding& finding : details->findings) {

@@ -75,17 +75,24 @@ void AddSumOfSquares(const VectorXd& d, const MatrixXd& P, Agreement* result) {
                               result->sum_of_squares / factor));
 }
 
+// b - a; angles of a robot are the same after a whole turn.
+double Apart(const ComparedValue& a, const ComparedValue& b, bool of_robots) {
+  const double apart = b.value - a.value;
+  const bool turns = of_robots && a.unit == "rad";
+  return turns ? std::remainder(apart, 2 * M_PI) : apart;
+}
+
 ValueDifference Difference(const ComparedValue& a, const ComparedValue& b,
-                           double most) {
+                           double apart, double most) {
   ValueDifference d{a.name,   a.unit,   a.value, b.value,
                     a.stddev, b.stddev, NAN,     false};
   const double stddev = std::hypot(a.stddev, b.stddev);
   if (stddev > 0) {
-    d.deviations = (b.value - a.value) / stddev;
+    d.deviations = apart / stddev;
     d.differs = std::abs(d.deviations) > most;
   } else {
     const double size = std::max(std::abs(a.value), std::abs(b.value));
-    d.differs = std::abs(b.value - a.value) > kSameNumber * size + 1e-12;
+    d.differs = std::abs(apart) > kSameNumber * size + 1e-12;
   }
   return d;
 }
@@ -102,6 +109,8 @@ std::string Sentence(const ValueDifference& d) {
 // The first sets of values that both have some of in common.
 void CompareValues(const ComparedResult& a, const ComparedResult& b,
                    double errors, Agreement* result) {
+  const bool of_robots = a.kind == ComparedResult::Kind::kCalibration ||
+                         a.kind == ComparedResult::Kind::kRobot;
   for (const ComparedValues& of_a : a.sets) {
     for (const ComparedValues& of_b : b.sets) {
       Names only_a, only_b;
@@ -114,12 +123,14 @@ void CompareValues(const ComparedResult& a, const ComparedResult& b,
       std::vector<int> at_a, at_b;
       VectorXd d(pairs.size());
       for (const auto& [k_a, k_b] : pairs) {
+        const double apart =
+            Apart(of_a.values[k_a], of_b.values[k_b], of_robots);
         result->values.push_back(
-            Difference(of_a.values[k_a], of_b.values[k_b], most));
+            Difference(of_a.values[k_a], of_b.values[k_b], apart, most));
         const ValueDifference& last = result->values.back();
         if (last.differs) result->disagreements.push_back(Sentence(last));
         if (std::isnan(last.deviations)) continue;
-        d[static_cast<Eigen::Index>(at_a.size())] = last.b - last.a;
+        d[static_cast<Eigen::Index>(at_a.size())] = apart;
         at_a.push_back(k_a), at_b.push_back(k_b);
       }
       AddSumOfSquares(d.head(at_a.size()),

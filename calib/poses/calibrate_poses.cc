@@ -162,6 +162,9 @@ PoseCalibration CalibratePoses(const Robot& robot,
   ArmGeometry refined = fit.geometry();
   refined.SetValues(solution.unknowns.geometry);
   result.robot = refined.ApplyTo(robot);
+  // An instrument's frame stands as it was set up, and says nothing of the
+  // vertical: the arm stands as in its file. An inclinometer's is the vertical.
+  if (measured.tilts.size() == 0) result.robot.gravity = robot.gravity;
   return result;
 }
 

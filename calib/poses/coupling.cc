@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calib/logs/encoder_noise.h"
+#include "calib/poses/follow.h"
 #include "calib/poses/joint_terms_fit.h"
 #include "calib/poses/load_moment.h"
 #include "calib/poses/repeated_poses.h"
@@ -32,6 +33,8 @@ constexpr double kLeastTurn = kSag;   // rad, rms over the poses
 constexpr double kLeastShift = 1e-3;  // m, of prismatic joints: their play
 // m: the weight turns no joint whose lever changes less between poses.
 constexpr double kLeastLever = 1e-2;
+// Of those that poses follow is left what all joints err by unasked.
+constexpr double kMostOfAJoint = kSag;  // rad, of each joint
 // Relations that are fitted; to first order the others explain less.
 constexpr int kFitted = 6;
 constexpr int kCouplingFolds = 6;
@@ -110,7 +113,9 @@ class CouplingSearch {
       return a.deviance < b.deviance;
     });
     if (!IsClear(without, fitted)) return {};
-    return Estimate(without, &fitted[0]);
+    std::optional<PoseCoupling> found = Estimate(without, &fitted[0]);
+    if (found && !Explains(*found)) return {};
+    return found;
   }
 
  private:
@@ -130,6 +135,16 @@ class CouplingSearch {
         [](const Relation& a, const Relation& b) { return a.gain > b.gain; });
     if (relations.size() > kFitted) relations.resize(kFitted);
     return relations;
+  }
+
+  // Whether what is left is what joints err by beside any relation: each by
+  // kMostOfAJoint, independently, at a lever as long as the poses are wide.
+  // Where it is more, something else is wrong that the relation makes up for in
+  // part.
+  bool Explains(const PoseCoupling& found) const {
+    const double joints = static_cast<double>(measured_.q.cols());
+    const double lever = measured_.tilts.size() > 0 ? 1 : PoseExtent(measured_);
+    return found.rms_after <= kMostOfAJoint * std::sqrt(joints) * lever;
   }
 
   // With the levers and the parameters that show once the joints stand where

@@ -53,9 +53,10 @@ json CouplingJson(const Robot& robot, const PoseCalibration& result) {
           {"angle_after", c.angle_after}};
 }
 
-json NotesJson(const PoseCalibration& result) {
+json NotesJson(const Robot& robot, const PoseCalibration& result) {
   json notes = json::array();
-  for (const std::string& note : PoseNotes(result)) notes.push_back(note);
+  for (const std::string& note : PoseNotes(robot, result))
+    notes.push_back(note);
   return notes;
 }
 
@@ -113,7 +114,7 @@ json PoseJson(const Robot& robot, const PoseMeasurements& measured,
             {"instrument_ratio", JsonNumber(result.misfit.instrument_ratio)},
             {"order_correlation", result.misfit.order_correlation},
             {"coupling", CouplingJson(robot, result)},
-            {"notes", NotesJson(result)}}},
+            {"notes", NotesJson(robot, result)}}},
           {"termination",
            {{"converged", result.solved}, {"reason", result.reason}}}};
 }

@@ -30,7 +30,10 @@ struct ShownUnit {
 std::string Estimate(const GeometryEstimate& p) {
   const ShownUnit unit(p.unit);
   char text[128], spread[32] = "(not seen)  ";
-  if (std::isfinite(p.stddev)) {
+  // The poses tell less of it than the file, at whose value the prior holds it.
+  if (p.prior > 0 && p.stddev > p.prior) {
+    std::snprintf(spread, sizeof(spread), "(held)      ");
+  } else if (std::isfinite(p.stddev)) {
     std::snprintf(spread, sizeof(spread), "+- %-9.2g", unit.scale * p.stddev);
   }
   std::snprintf(text, sizeof(text), "  %-22s %12.4f -> %12.4f %s %s\n",
@@ -130,7 +133,8 @@ std::string ObservedText(const PoseCalibration& result) {
 }
 
 // What is left beside the instrument, and what else there is to say of it.
-std::string MisfitText(const PoseCalibration& result, const char* unit) {
+std::string MisfitText(const Robot& robot, const PoseCalibration& result,
+                       const char* unit) {
   const PoseMisfit& misfit = result.misfit;
   std::string text;
   if (std::isfinite(misfit.instrument_ratio)) {
@@ -141,7 +145,7 @@ std::string MisfitText(const PoseCalibration& result, const char* unit) {
                   1e3 * misfit.instrument_u95, unit, misfit.instrument_ratio);
     text = line;
   }
-  for (const std::string& note : PoseNotes(result)) {
+  for (const std::string& note : PoseNotes(robot, result)) {
     text += "note       " + note + "\n";
   }
   return text;
@@ -171,7 +175,7 @@ std::string PoseReport(const Robot& robot, const PoseMeasurements& measured,
   std::string text = WorseText(result, unit) + line +
                      HeldOutText(result, unit) + CameraText(measured) +
                      LossText(result) + OutlierText(measured, result) +
-                     MisfitText(result, unit) +
+                     MisfitText(robot, result, unit) +
                      "\ngeometry                       file        estimate\n";
   for (const GeometryEstimate& p : result.parameters) text += Estimate(p);
   return text + HeldText(result.held) + ObservedText(result) +

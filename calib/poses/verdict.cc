@@ -1,13 +1,16 @@
 #include "calib/poses/verdict.h"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <utility>
 
 #include "calib/linear/verdict.h"
 #include "calib/logs/encoder_noise.h"
 #include "calib/poses/follow.h"
 #include "calib/poses/misfit.h"
 #include "model/text/format.h"
+#include "model/text/option_name.h"
 
 namespace armcal {
 namespace {
@@ -22,6 +25,8 @@ constexpr double kOneSided95 = 1.645;  // standard deviations
 // with its position is more than three times (the root of ten) what all poses
 // seemed to promise.
 constexpr double kLeastInlierMotion = 0.1;
+// Of files as good as their priors say: one in a thousand is called worse.
+constexpr double kLeastByPrior = 1e-3;
 
 // Of what is measured, in thousandths: mm, or mrad of an inclinometer.
 std::string Thousandths(const PoseCalibration& result, double x) {
@@ -33,6 +38,11 @@ bool AreNoGrossErrors(int outliers, int poses) {
   const double expected = kMostGrossErrors * poses;
   return outliers >
          expected + kOneSided95 * std::sqrt(expected * (1 - kMostGrossErrors));
+}
+
+// A joint whose positions have to be negated turns by 1 - 2 times what it says.
+bool CountsTheOtherWay(const PoseCoupling& c) {
+  return c.joint == c.by && std::abs(c.factor + 2) <= kNormal95 * c.stddev;
 }
 
 void AddCoupling(const Robot& robot, const PoseCalibration& result,
@@ -50,6 +60,12 @@ void AddCoupling(const Robot& robot, const PoseCalibration& result,
   }
   k += ": correct the joint positions beside the poses";
   const std::string name = robot.links[c.joint].joint.name;
+  if (CountsTheOtherWay(c)) {
+    sentences->push_back("direction: " + name +
+                         " counts the other way than in the robot file: " +
+                         own + " (1 + k) with " + k);
+    return;
+  }
   if (c.joint == c.by) {
     sentences->push_back("gear ratio: " + name +
                          " turns by another factor than "
@@ -76,6 +92,59 @@ void AddGivenUpMotion(const Robot& robot, const PoseCalibration& result,
   }
 }
 
+// Joints before the first that moves: they are part of where the arm stands in
+// the instrument's frame, which is fitted anyway.
+int StandingAtBase(const PoseCalibration& result) {
+  int joint = 0;
+  while (joint < result.travel.size() && result.travel[joint] < kLeastTravel) {
+    ++joint;
+  }
+  return joint;
+}
+
+// Further on, the links on both sides of a joint that stands are one, and which
+// of them is how long does not show; its zero is a number like others.
+void AddStandingJoints(const Robot& robot, const PoseCalibration& result,
+                       Sentences* sentences) {
+  const auto is_link = [](const GeometryEstimate& p) {
+    return p.prior > 0 && p.name.substr(p.name.rfind('.')) != ".theta";
+  };
+  if (std::none_of(result.parameters.begin(), result.parameters.end(),
+                   is_link)) {
+    return;
+  }
+  Eigen::VectorXd travel = result.travel;
+  travel.head(StandingAtBase(result)).setConstant(kLeastTravel);
+  AddUnmoved(robot, travel,
+             "the geometry of the links on both sides of it is not "
+             "determined; measure poses in which it moves, or estimate its "
+             "zero alone (" +
+                 OptionName("geometry") + "=offsets)",
+             sentences);
+}
+
+// Those at the base are as if held.
+void AddHeldAtBase(const Robot& robot, const PoseCalibration& result,
+                   Sentences* notes) {
+  const int standing = StandingAtBase(result);
+  if (!result.refined || standing == 0 || standing == robot.num_joints()) {
+    return;
+  }
+  std::string names;
+  for (int i = 0; i < standing; ++i) {
+    names += (i > 0 ? ", " : "") + robot.links[i].joint.name;
+  }
+  notes->push_back(
+      names +
+      (standing == 1 ? " never moves: it is held, as is its link"
+                     : " never move: they are held, as are their links") +
+      " (the file's geometry there is not checked); to leave " +
+      (standing == 1 ? "it" : "them") + " out, " + OptionName("base") + "=" +
+      robot.links[standing - 1].name +
+      " with columns that have joints' names, or measure poses in which " +
+      (standing == 1 ? "it moves" : "they move"));
+}
+
 void AddOutliers(const PoseCalibration& result, Sentences* sentences) {
   const int outliers = static_cast<int>(result.outliers.size());
   if (!AreNoGrossErrors(outliers, result.count)) return;
@@ -95,6 +164,52 @@ void AddBesideInstrument(const PoseCalibration& result, Sentences* sentences) {
                        " times its standard deviation, at most " +
                        Format("%.2g", kMostOfInstrument) +
                        " can count as errors of measurement");
+}
+
+// Lengths whose estimates the file's prior hardly allows. Under the prior an
+// estimate's distance from the file has a standard deviation below the prior's
+// own, since the estimate holds less than all of what the parameter may be by:
+// their squares together are below chi squared of so many degrees of freedom.
+// Zeros and other angles are not asked: an encoder's zero may be anywhere.
+void AddBeyondPrior(const PoseCalibration& result, Sentences* sentences) {
+  double squares = 0;
+  std::vector<std::pair<double, const GeometryEstimate*>> lengths;
+  for (const GeometryEstimate& p : result.parameters) {
+    if (!(p.prior > 0) || p.unit != "m" || !p.identifiable) continue;
+    const double apart = std::abs(p.value - p.nominal) / p.prior;
+    squares += apart * apart;
+    lengths.emplace_back(apart, &p);
+  }
+  if (lengths.empty()) return;
+  const auto count = static_cast<double>(lengths.size());
+  const auto least = [](double freedom, double chance) {
+    return boost::math::quantile(
+        boost::math::complement(boost::math::chi_squared(freedom), chance));
+  };
+  if (squares <= least(count, kLeastByPrior)) return;
+  // Of so many the farthest alone (Bonferroni), or all as they are.
+  std::sort(lengths.rbegin(), lengths.rend());
+  const double far = std::sqrt(least(1, kLeastByPrior / count));
+  std::string names;
+  constexpr size_t kShown = 3;
+  size_t shown = 0, beyond = 0;
+  for (const auto& [apart, p] : lengths) {
+    if (apart <= far && shown > 0) break;
+    ++beyond;
+    if (shown == kShown) continue;
+    ++shown;
+    names += (names.empty() ? "" : ", ") + p->name +
+             Format(" by %.4g mm (%.3g standard deviations of %s, %.3g mm)",
+                    1e3 * (p->value - p->nominal), apart,
+                    OptionName("length_trust").c_str(), 1e3 * p->prior);
+  }
+  if (beyond > shown) names += Format(" and %zu more", beyond - shown);
+  sentences->push_back(
+      "lengths are farther from the robot file's than it can be wrong by: " +
+      names +
+      "; columns of joints may be exchanged or count the other way, or the "
+      "file is of another arm; if lengths are that uncertain, say so by " +
+      OptionName("length_trust"));
 }
 
 // Which is also what a loss is chosen by (cross_validation.h).
@@ -125,10 +240,7 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   if (!result.solved) return {result.reason};
   Sentences sentences;
   AddCoupling(robot, result, &sentences);
-  if (result.refined) {
-    AddUnmoved(robot, result.travel, "its geometry is not determined",
-               &sentences);
-  }
+  AddStandingJoints(robot, result, &sentences);
   AddGivenUpMotion(robot, result, &sentences);
   const double deviation = std::max(result.median, result.held_out_median);
   if (!FollowsJoints(deviation, result.extent)) {
@@ -140,14 +252,16 @@ Sentences Shortcomings(const Robot& robot, const PoseCalibration& result) {
   if (IsClearlyWorseThanFile(result)) {
     sentences.push_back(WorseThanFile(result));
   }
+  AddBeyondPrior(result, &sentences);
   AddOutliers(result, &sentences);
   AddBesideInstrument(result, &sentences);
   return sentences;
 }
 
-Sentences PoseNotes(const PoseCalibration& result) {
+Sentences PoseNotes(const Robot& robot, const PoseCalibration& result) {
   Sentences notes;
   if (!result.solved) return notes;
+  AddHeldAtBase(robot, result, &notes);
   const std::string order = OrderSentence(result.misfit);
   if (!order.empty()) notes.push_back(order);
   if (IsWorseThanFile(result) && !IsClearlyWorseThanFile(result)) {

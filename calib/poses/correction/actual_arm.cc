@@ -30,6 +30,7 @@ Robot RefinedLinks(const Robot& file, const VectorXd& values) {
 
 ActualArm::ActualArm(const PoseModel& model)
     : known_(model.campaign.arm),
+      zeros_(model.campaign.zeros),
       links_(
           RefinedLinks(known_.robot, model.estimate.state.unknowns.geometry)) {
   for (size_t e = 0; e < model.effects.size(); ++e) Add(model, e);
@@ -66,7 +67,7 @@ ActualArm::Moved ActualArm::At(const VectorXd& q,
   PoseMeasurements pose;
   pose.q = q.transpose();
   const PoseCampaign campaign =
-      MakeCampaign(known_, pose, standing.transpose());
+      MakeCampaign(known_, pose, standing.transpose(), zeros_);
   for (const Term& term : terms_) {
     const double by = term.amount * SignalAt(campaign, term.signal)[0];
     if (term.acts == PoseTerm::Acts::kJoint) moved.joints[term.index] += by;

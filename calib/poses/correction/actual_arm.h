@@ -31,6 +31,9 @@ class ActualArm {
   int num_joints() const { return file().num_joints(); }
   const Robot& file() const { return known_.robot; }
   const KnownArm& known() const { return known_; }
+  // Rad, added to where joints stand for what their displacements depend on, by
+  // the file's geometry.
+  const Eigen::VectorXd& zeros() const { return zeros_; }
   // The file with the refined links.
   const Robot& links() const { return links_; }
   const std::vector<Term>& terms() const { return terms_; }
@@ -58,6 +61,7 @@ class ActualArm {
   Moved Settled(const Eigen::VectorXd& q) const;
 
   KnownArm known_;
+  Eigen::VectorXd zeros_;  // PoseCampaign
   Robot links_;
   std::vector<Term> terms_;
   std::vector<std::string> left_out_;

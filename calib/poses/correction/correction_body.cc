@@ -65,13 +65,14 @@ static double triple(const double a[3], const double b[3], const double c[3]) {
 }
 
 /* What a term's displacement goes with, where joints were recorded at q and
-   stand at `standing`. */
+   stand at `at` but for their zeros. */
 static double signal_of(const struct term* t, const double q[],
-                        const double standing[]) {
+                        const double at[]) {
   double pose[12], frames[JOINTS][12], bodies[JOINTS][12];
-  double axis[3] = {0, 0, 0}, lever[3];
+  double axis[3] = {0, 0, 0}, lever[3], standing[JOINTS];
   const int j = t->of;
   int i, k;
+  for (i = 0; i < JOINTS; ++i) standing[i] = at[i] + zeros[i];
   if (t->kind == ONE) return 1;
   if (t->kind == POSITION) return q[j];
   if (t->kind == SINE) return sin(t->harmonic * standing[j]);

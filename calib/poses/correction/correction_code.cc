@@ -149,6 +149,11 @@ std::string CorrectionCode(const ActualArm& arm,
       "};\n";
   text += Links("by_file", arm.file()) + Links("refined", arm.links());
   text += "static const double tool[12] = " + Numbers(arm.file().X_LT) + ";\n";
+  text += "static const double zeros[JOINTS] = {";
+  for (int i = 0; i < arm.num_joints(); ++i) {
+    text += Format("%s%.17g", i > 0 ? ", " : "", arm.zeros()[i]);
+  }
+  text += "};\n";
   text += Format("static const double down[3] = {%.17g, %.17g, %.17g};\n",
                  down.x(), down.y(), down.z());
   return text + Weights(arm) + Terms(arm) + kCorrectionBody;

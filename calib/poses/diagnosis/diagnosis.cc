@@ -199,8 +199,10 @@ void AddTold(const std::vector<Told>& compliance, double design_effect,
              std::vector<PoseFinding>* findings) {
   study->arm.compliance = compliance;
   PoseModel from = *model;
-  from.campaign =
-      MakeCampaign(study->arm, study->measured, model->campaign.standing);
+  from.campaign = MakeCampaign(
+      study->arm, study->measured,
+      model->campaign.standing.rowwise() - model->campaign.zeros.transpose(),
+      model->campaign.zeros);
   *model = FitPoseModel(*study, model->effects, from, VectorXd());
   const std::vector<PoseAmounts> all = AmountsOf(*study, *model, design_effect);
   for (size_t e = 0; e < findings->size(); ++e) {

@@ -230,4 +230,14 @@ MatrixXd PoseEquations::Standing(const std::vector<PoseTerm>& terms,
   return q;
 }
 
+VectorXd PoseEquations::Zeros(const PoseState& at) const {
+  const ArmGeometry& geometry = fit_.geometry();
+  VectorXd zeros = VectorXd::Zero(geometry.num_joints());
+  for (int i = 0; i < geometry.num_joints(); ++i) {
+    const int k = geometry.ZeroOf(i);
+    if (k >= 0) zeros[i] = at.unknowns.geometry[k] - file_[k];
+  }
+  return zeros;
+}
+
 }  // namespace armcal

@@ -57,6 +57,8 @@ class PoseEquations {
   // Joint positions with what the terms add, poses x joints.
   Eigen::MatrixXd Standing(const std::vector<PoseTerm>& terms,
                            const Eigen::VectorXd& amounts) const;
+  // By how much each joint's zero is off the file's, rad; of one that slides 0.
+  Eigen::VectorXd Zeros(const PoseState& at) const;
 
  private:
   DisplacedPose Displace(int pose, const std::vector<PoseTerm>& terms,

@@ -65,6 +65,10 @@ struct PoseFinding {
   std::vector<PoseEquivalent> equivalents;
 };
 
+// Whether it is a joint that turns by 1 - 2 times what it says, as far as its
+// interval tells.
+bool CountsTheOtherWay(const PoseFinding& finding);
+
 // Root mean squares of distances, m.
 struct PoseGap {
   double file = 0;      // with the instrument's frame fitted alone

@@ -16,8 +16,6 @@ namespace {
 
 // An arm has a given effect of the list in one of twenty campaigns.
 constexpr double kPriorProbability = .05;
-// rad or m: signals are made again where joints turn out to stand elsewhere.
-constexpr double kStandsElsewhere = .02;
 // Of a column's square: what is less is explained by the others.
 constexpr double kUnseen = 1e-6;
 
@@ -45,15 +43,17 @@ std::string PoseModel::Name() const {
 
 PoseModel FitGeometryAlone(const PoseStudy& study, const PoseState& start) {
   PoseModel model;
-  model.campaign = MakeCampaign(study.arm, study.measured, study.measured.q);
   model.begin = {0};
   model.estimate = EstimatePoses(study.equations, {}, study.nu, start);
+  model.campaign = MakeCampaign(study.arm, study.measured, study.measured.q,
+                                study.equations.Zeros(model.estimate.state));
   return model;
 }
 
 // Effects' signals depend on where joints stand, which effects change (a
-// coupling, a gear ratio). So the fit is repeated with new signals where joints
-// turn out to stand elsewhere by more than kStandsElsewhere.
+// coupling, a gear ratio) and the joints' zeros. So the fit is repeated with
+// new signals where joints turn out to stand elsewhere by more than
+// kStandsElsewhere.
 PoseModel FitPoseModel(const PoseStudy& study,
                        const std::vector<PlacedPoseEffect>& effects,
                        const PoseModel& from, const VectorXd& amounts) {
@@ -68,10 +68,13 @@ PoseModel FitPoseModel(const PoseStudy& study,
   model.estimate = EstimatePoses(study.equations, model.terms, study.nu, start);
   const MatrixXd standing =
       study.equations.Standing(model.terms, model.estimate.state.amounts);
+  const VectorXd zeros = study.equations.Zeros(model.estimate.state);
   const double elsewhere =
-      (standing - model.campaign.standing).cwiseAbs().maxCoeff();
+      (standing.rowwise() + zeros.transpose() - model.campaign.standing)
+          .cwiseAbs()
+          .maxCoeff();
   if (elsewhere < kStandsElsewhere) return model;
-  model.campaign = MakeCampaign(study.arm, study.measured, standing);
+  model.campaign = MakeCampaign(study.arm, study.measured, standing, zeros);
   MakeTerms(&model);
   model.estimate = EstimatePoses(study.equations, model.terms, study.nu,
                                  model.estimate.state);
@@ -203,8 +206,13 @@ double EvidenceOf(const PoseStudy& study, const PoseModel& model,
         size.cwiseInverse().asDiagonal() * S * size.cwiseInverse().asDiagonal();
     const VectorXd seen =
         Eigen::SelfAdjointEigenSolver<MatrixXd>(relative).eigenvalues();
-    score += std::log(std::max(2.0, count)) *
-             static_cast<double>((seen.array() > kUnseen).count());
+    // Those that are at their least have taken nothing from the poses.
+    double at_least = 0;
+    for (size_t k = 0; k < model.terms.size(); ++k) {
+      at_least += at.state.amounts[k] <= model.terms[k].least;
+    }
+    const auto told = static_cast<double>((seen.array() > kUnseen).count());
+    score += std::log(std::max(2.0, count)) * std::max(0.0, told - at_least);
   }
   for (const PlacedPoseEffect& placed : model.effects) {
     score += PriorPenalty(model.campaign, *placed.effect);

@@ -27,6 +27,10 @@ struct PoseStudy {
   std::vector<std::string> without = {};  // effects that are not considered
 };
 
+// rad or m: what depends on the posture is taken anew where joints turn out to
+// stand elsewhere.
+inline constexpr double kStandsElsewhere = .02;
+
 // The geometry with some effects, and how it fits.
 struct PoseModel {
   std::vector<PlacedPoseEffect> effects;

@@ -57,9 +57,14 @@ std::string ToldText(const PoseFinding& finding) {
 
 std::string AmountsText(const PoseFinding& finding) {
   std::string text;
-  const size_t shown = std::min(finding.amounts.size(), kAmountsShown);
+  // Those that are 0, at their least, last.
+  std::vector<PoseAmount> amounts = finding.amounts;
+  std::stable_partition(
+      amounts.begin(), amounts.end(),
+      [](const PoseAmount& amount) { return amount.value != 0; });
+  const size_t shown = std::min(amounts.size(), kAmountsShown);
   for (size_t k = 0; k < shown; ++k) {
-    text += (k > 0 ? ", " : "") + AmountText(finding.amounts[k]);
+    text += (k > 0 ? ", " : "") + AmountText(amounts[k]);
   }
   if (finding.placed.effect->is_harmonic) {
     text +=
@@ -105,6 +110,16 @@ std::string EquivalentText(const PoseFinding& finding) {
          " there)\n";
 }
 
+// Of a gear ratio of -1: its joint's positions have to be negated.
+std::string DirectionText(const PoseFinding& finding,
+                          const PoseCampaign& campaign) {
+  if (!CountsTheOtherWay(finding)) return "";
+  return "         " +
+         campaign.robot().links[finding.placed.place.joint].joint.name +
+         " counts the other way than in the robot file: expected its "
+         "positions negated\n";
+}
+
 std::string FindingText(const PoseFinding& finding,
                         const PoseCampaign& campaign) {
   return Format("  %3.0f %%  ", 100 * finding.probability) + finding.name +
@@ -114,7 +129,8 @@ std::string FindingText(const PoseFinding& finding,
          InMillimetres(finding.displacement_max) + " at most; removes " +
          SharePercent(finding.interleaved.removed_share) +
          SideText("begins", finding.begin, campaign, 0) +
-         SideText("ends", finding.end, campaign, 1) + "\n" + ToldText(finding) +
+         SideText("ends", finding.end, campaign, 1) + "\n" +
+         DirectionText(finding, campaign) + ToldText(finding) +
          EquivalentText(finding);
 }
 
@@ -145,7 +161,20 @@ std::string UnpredictedText(const PoseGap& gap) {
          "): what explains it may be seen there alone\n";
 }
 
-std::string LeftText(const PoseMeasurements& measured,
+// Of the joints by which what depends on the posture was taken anew.
+std::string ZerosText(const Robot& robot, const PoseCampaign& campaign) {
+  std::string names;
+  for (int i = 0; i < robot.num_joints(); ++i) {
+    if (std::abs(campaign.zeros[i]) < kStandsElsewhere) continue;
+    names += (names.empty() ? "" : ", ") + robot.links[i].joint.name +
+             Format(" by %.3g deg", campaign.zeros[i] * 180 / M_PI);
+  }
+  if (names.empty()) return "";
+  return "  zeros are off the robot file's: " + names +
+         "; loads are those of the arm as it stands\n";
+}
+
+std::string LeftText(const Robot& robot, const PoseMeasurements& measured,
                      const PoseDiagnosis& diagnosis) {
   const PoseMisfit& misfit = diagnosis.misfit;
   std::string text = "\nwhat is left\n  " +
@@ -161,6 +190,7 @@ std::string LeftText(const PoseMeasurements& measured,
   text += Format("\n  successive poses correlate by %.2f +- %.2f\n",
                  misfit.order_correlation, misfit.order_stddev);
   text += UnpredictedText(diagnosis.gap);
+  text += ZerosText(robot, diagnosis.model.campaign);
   if (!diagnosis.unconfirmed.empty()) {
     text += "  held-out poses do not confirm " + diagnosis.unconfirmed + "\n";
   }
@@ -226,7 +256,7 @@ std::string PoseDiagnosisReport(const Robot& robot,
   for (const PoseFinding& finding : diagnosis.findings) {
     text += FindingText(finding, campaign);
   }
-  return text + GapText(diagnosis.gap) + LeftText(measured, diagnosis) +
+  return text + GapText(diagnosis.gap) + LeftText(robot, measured, diagnosis) +
          NextText(diagnosis);
 }
 

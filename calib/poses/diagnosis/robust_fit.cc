@@ -39,6 +39,36 @@ double PriorCost(const PoseEquations& equations,
          FromTold(terms, state).cwiseAbs2().dot(ToldPrecision(terms));
 }
 
+// The step of A step = b that leaves no amount below its least: what would go
+// there stops at it, and the others are solved for anew.
+VectorXd BoundedStep(const MatrixXd& A, const VectorXd& b,
+                     const std::vector<PoseTerm>& terms,
+                     const VectorXd& amounts) {
+  const Eigen::Index first = b.size() - amounts.size();
+  std::vector<bool> stopped(amounts.size(), false);
+  for (;;) {
+    std::vector<Eigen::Index> moving;
+    VectorXd step = VectorXd::Zero(b.size());
+    for (Eigen::Index k = 0; k < b.size(); ++k) {
+      if (k < first || !stopped[k - first]) {
+        moving.push_back(k);
+      } else {
+        step[k] = terms[k - first].least - amounts[k - first];
+      }
+    }
+    const VectorXd pull = b - A * step;
+    step(moving) = A(moving, moving).ldlt().solve(pull(moving)).eval();
+    bool again = false;
+    for (Eigen::Index k = 0; k < amounts.size(); ++k) {
+      if (stopped[k] || !(amounts[k] + step[first + k] < terms[k].least)) {
+        continue;
+      }
+      stopped[k] = again = true;
+    }
+    if (!again) return step;
+  }
+}
+
 // One step: moves to a state of lower -2 log p and says by how much. Damping
 // grows tenfold until there is one.
 double Improve(const PoseEquations& equations,
@@ -55,7 +85,8 @@ double Improve(const PoseEquations& equations,
     MatrixXd damped = A;
     damped.diagonal() *= 1 + *damping;
     damped.diagonal().array() += 1e-12;
-    const PoseState moved = equations.Moved(at->state, damped.ldlt().solve(b));
+    const PoseState moved = equations.Moved(
+        at->state, BoundedStep(damped, b, terms, at->state.amounts));
     const StudentFit errors = FitStudent(equations.Residuals(terms, moved),
                                          equations.width(), at->nu);
     const double prior = PriorCost(equations, terms, moved);

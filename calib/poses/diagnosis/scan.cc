@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace armcal {
@@ -50,7 +51,28 @@ class EffectScan {
   // scale make it N log(1 - gain / chi^2), plus what the evidence asks for.
   ScannedEffect Try(const PlacedPoseEffect& placed) const {
     const auto terms = placed.effect->terms(model_.campaign, placed.place);
-    ScannedEffect scanned = {placed, VectorXd::Zero(terms.size()), 0};
+    std::vector<Eigen::Index> kept(terms.size());
+    std::iota(kept.begin(), kept.end(), 0);
+    for (;;) {
+      ScannedEffect scanned = Try(placed, terms, kept);
+      // Amounts below what there is are 0.
+      const auto end = std::remove_if(
+          kept.begin(), kept.end(),
+          [&](Eigen::Index k) { return scanned.amounts[k] < terms[k].least; });
+      if (end == kept.end()) return scanned;
+      kept.erase(end, kept.end());
+    }
+  }
+
+  // With those of its terms that are `kept`.
+  ScannedEffect Try(const PlacedPoseEffect& placed,
+                    const std::vector<PoseTerm>& all,
+                    const std::vector<Eigen::Index>& kept) const {
+    ScannedEffect scanned = {placed, VectorXd::Zero(all.size()), 0};
+    scanned.score = PriorPenalty(model_.campaign, *placed.effect);
+    if (kept.empty()) return scanned;
+    std::vector<PoseTerm> terms;
+    for (const Eigen::Index k : kept) terms.push_back(all[k]);
     const MatrixXd C =
         WeightedRows(at_, study_.equations.Columns(at_.linear, terms));
     const VectorXd size = C.colwise().norm().cwiseMax(1e-30);
@@ -62,19 +84,19 @@ class EffectScan {
                                                  shared.transpose() * moved_);
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(S);
     double gain = 0, rank = 0;
+    VectorXd amounts = VectorXd::Zero(S.cols());
     for (Eigen::Index k = 0; k < S.cols(); ++k) {
       const double value = eigen.eigenvalues()[k];
       if (value < kUnseenShare) continue;
       const double along = eigen.eigenvectors().col(k).dot(b);
       gain += along * along / value;
       rank += 1;
-      scanned.amounts += along / value * eigen.eigenvectors().col(k);
+      amounts += along / value * eigen.eigenvectors().col(k);
     }
-    scanned.amounts = scanned.amounts.cwiseProduct(inverse_size);
+    scanned.amounts(kept) = amounts.cwiseProduct(inverse_size);
     const double left = std::max(1e-6, 1 - gain / chi2_);
-    scanned.score = count_ * std::log(left) +
-                    rank * std::log(std::max(2.0, count_)) +
-                    PriorPenalty(model_.campaign, *placed.effect);
+    scanned.score +=
+        count_ * std::log(left) + rank * std::log(std::max(2.0, count_));
     return scanned;
   }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "calib/poses/diagnosis/report.h"
 #include "model/text/enumeration.h"
@@ -16,8 +17,10 @@ struct Claims {
   void Add(const PoseFinding& finding) {
     constexpr double kConfident = .8;
     (finding.probability >= kConfident ? sure : unsure)
-        .push_back(finding.name + " (" +
-                   MillimetresOf(finding.displacement_rms) + " rms)");
+        .push_back(
+            finding.name +
+            (CountsTheOtherWay(finding) ? ", which counts the other way" : "") +
+            " (" + MillimetresOf(finding.displacement_rms) + " rms)");
   }
   bool empty() const { return sure.empty() && unsure.empty(); }
   // "lacks a and probably b", "probably lacks a and b".
@@ -81,6 +84,13 @@ std::string UnlikelyText(const PoseDiagnosis& diagnosis) {
 }
 
 }  // namespace
+
+bool CountsTheOtherWay(const PoseFinding& finding) {
+  const double at = finding.placed.effect->turned_round_at;
+  if (at == 0 || finding.amounts.empty()) return false;
+  const PoseAmount& amount = finding.amounts[0];
+  return std::abs(amount.value - at) <= amount.half_width;
+}
 
 std::string PoseSentence(const PoseDiagnosis& diagnosis) {
   if (diagnosis.verdict == PoseVerdict::kNotTestable) {

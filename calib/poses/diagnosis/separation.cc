@@ -38,7 +38,8 @@ PoseMeasurements AnyPoses(const PoseMeasurements& measured) {
 VectorXd Predict(const PoseStudy& study, const PoseMeasurements& tried,
                  const PoseModel& model) {
   const PoseEquations equations = study.equations.Of(tried);
-  const PoseCampaign campaign = MakeCampaign(study.arm, tried, tried.q);
+  const PoseCampaign campaign =
+      MakeCampaign(study.arm, tried, tried.q, model.campaign.zeros);
   std::vector<PoseTerm> terms;
   for (size_t e = 0; e < model.effects.size(); ++e) {
     const PlacedPoseEffect& placed = model.effects[e];

@@ -61,11 +61,15 @@ bool PoseCampaign::Turns(int joint) const {
 }
 
 PoseCampaign MakeCampaign(const KnownArm& arm, const PoseMeasurements& measured,
-                          const MatrixXd& standing) {
+                          const MatrixXd& by_file,
+                          const Eigen::VectorXd& zeros) {
   PoseCampaign campaign;
   const Robot& robot = arm.robot;
   campaign.arm = arm;
   campaign.recorded = measured.q;
+  campaign.zeros = zeros;
+  if (zeros.size() == 0) campaign.zeros.setZero(robot.num_joints());
+  const MatrixXd standing = by_file.rowwise() + campaign.zeros.transpose();
   campaign.standing = standing;
   campaign.travel =
       measured.q.colwise().maxCoeff() - measured.q.colwise().minCoeff();

@@ -31,8 +31,12 @@ struct PoseCampaign {
   KnownArm arm;
   const Robot& robot() const { return arm.robot; }
   Eigen::MatrixXd recorded;  // rad or m, as the file has them
-  Eigen::MatrixXd standing;  // the same, corrected by effects found so far
-  Eigen::VectorXd travel;    // per joint, of `recorded`
+  // The same, corrected by effects found so far and by `zeros`, by which the
+  // joints' zeros are off the file's (rad): what depends on where joints stand
+  // is taken from the file's geometry there.
+  Eigen::MatrixXd standing;
+  Eigen::VectorXd zeros;
+  Eigen::VectorXd travel;  // per joint, of `recorded`
   // Moments (m) about each joint of a unit weight at the tool, and of one that
   // is spread evenly over the origins of the further links.
   Eigen::MatrixXd tool_moment, link_moment;
@@ -54,8 +58,10 @@ struct PoseCampaign {
   bool ShowsRotation() const { return whole_poses || targets > 2; }
 };
 
-// `standing`: rows of joint positions.
+// `standing`: rows of joint positions without `zeros`; these empty: as in the
+// file.
 PoseCampaign MakeCampaign(const KnownArm& arm, const PoseMeasurements& measured,
-                          const Eigen::MatrixXd& standing);
+                          const Eigen::MatrixXd& standing,
+                          const Eigen::VectorXd& zeros = {});
 
 }  // namespace armcal

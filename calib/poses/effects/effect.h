@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct PoseTerm {
   std::string unit;
   PostureSignal goes_with = {};  // what `signal` is made from
   Told told = {};                // of the amount, by others than the poses
+  // Below this the amount is nothing that there is, as a negative compliance.
+  double least = -std::numeric_limits<double>::infinity();
 };
 
 // One whose signal is that of the posture.
@@ -64,6 +67,9 @@ struct PoseEffect {
   std::string separate_by;
   // Amounts of it that a fit may not reach from 0, beside 0.
   std::vector<double> far_amounts;
+  // Its amount where the joint counts the other way than its file; 0: it has
+  // none.
+  double turned_round_at = 0;
   // Its amounts are those of a sine and a cosine: of an amplitude.
   bool is_harmonic = false;
   // Beyond this much from 0 and from each of `far_amounts` it is another

@@ -11,6 +11,7 @@ PoseEffect GearRatio() {
   effect.means = "the joint turns by 1 + k times what was recorded";
   effect.separate_by = "poses over more of the joint's range";
   effect.far_amounts = {-2};
+  effect.turned_round_at = -2;
   effect.most_amount = .5;
   effect.places = [](const PoseCampaign& campaign) {
     return EachJoint(campaign, &PoseCampaign::Moves);

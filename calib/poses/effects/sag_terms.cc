@@ -37,6 +37,7 @@ std::vector<PoseTerm> SagTerms(const PoseCampaign& campaign, int joint,
     terms.push_back(
         PostureTerm(campaign, PoseTerm::Acts::kJoint, joint, {moment, joint},
                     campaign.robot().links[joint].joint.name + by, unit));
+    terms.back().least = 0;
   };
   if (campaign.arm.weighed) {
     add(PostureSignal::Of::kWeightMoment, "", "rad/(N m)");

@@ -114,6 +114,29 @@ TEST(Agreement, RobotsAreExact) {
 }
 
 // What only one of them knows is not compared, and told.
+// A yaw of half a turn is one to either side. What a rollout is off by is no
+// angle of a robot: after a whole turn it is another one.
+TEST(Agreement, AnglesOfRobotsAreTheSameAfterATurn) {
+  const auto result = [](Kind kind, double angle) {
+    ComparedResult r{"r", kind, "arm", "", {}, {}, {}, {}};
+    r.sets.push_back({{{"link.yaw", "rad", angle, 0}}, {}});
+    return r;
+  };
+  for (const Kind kind : {Kind::kRobot, Kind::kCalibration}) {
+    EXPECT_THAT(
+        CompareTwo(result(kind, M_PI), result(kind, -M_PI), .01).disagreements,
+        IsEmpty());
+    EXPECT_THAT(CompareTwo(result(kind, M_PI), result(kind, -M_PI + 1e-3), .01)
+                    .disagreements,
+                ElementsAre(HasSubstr("link.yaw is")));
+  }
+  const Kind rollouts = Kind::kVerification;
+  EXPECT_THAT(
+      CompareTwo(result(rollouts, .5), result(rollouts, .5 + 2 * M_PI), .01)
+          .disagreements,
+      ElementsAre(HasSubstr("link.yaw is")));
+}
+
 TEST(Agreement, UnknownValuesAreNotCompared) {
   ComparedResult a =
       Calibration("a", Eigen::Vector2d(1, 2), MatrixXd::Identity(2, 2));

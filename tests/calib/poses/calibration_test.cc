@@ -72,6 +72,20 @@ TEST(PoseCalibration, PredictsNewPoses) {
   }
 }
 
+// An instrument may lie on its side. The arm then stands in its new file as in
+// the old one.
+TEST(PoseCalibration, GravityIsTheFiles) {
+  Plant plant("UR5 6R", 6);
+  plant.X_WB.linear() = RotationFromRpy({M_PI / 2, .1, -.3});
+  for (const auto instrument : {Instrument::kTargets, Instrument::kPoses}) {
+    const auto c =
+        CalibratePoses(plant.nominal, plant.Measure(instrument, 60, kNoise),
+                       Options(RobustLoss::kHuber));
+    ASSERT_TRUE(c.solved) << c.reason;
+    EXPECT_LT((c.robot.gravity - plant.nominal.gravity).norm(), 1e-12);
+  }
+}
+
 TEST(PoseCalibration, TooFewPosesAreAVerdict) {
   Plant plant("PUMA560 6R", 1);
   const auto three = CalibratePoses(

@@ -65,15 +65,21 @@ TEST(HeldOutFigures, AreJudgedByTheirScatter) {
   EXPECT_FALSE(IsWorseThanFile(c));
   EXPECT_THAT(PoseReport(plant.nominal, m, c), Not(HasSubstr("WORSE")));
   EXPECT_THAT(Shortcomings(plant.nominal, c), IsEmpty());
+  // What the file's prior holds has no interval of the poses.
+  EXPECT_THAT(PoseReport(plant.nominal, m, c), Not(HasSubstr("(held)")));
+  PoseCalibration held = c;
+  held.parameters.back().prior = .02;
+  held.parameters.back().stddev = 1.7;
+  EXPECT_THAT(PoseReport(plant.nominal, m, held), HasSubstr("(held)"));
   // More than the file's in sample, less than it held out: not worse.
   c.held_out_rms = 4.5e-3;
   c.before_rms = 4e-3;
   c.file_held_out_rms = 5e-3;
-  EXPECT_THAT(PoseNotes(c), Not(Contains(HasSubstr("worse"))));
+  EXPECT_THAT(PoseNotes(plant.nominal, c), Not(Contains(HasSubstr("worse"))));
   c.compared_rms = 5.5e-3;
   c.held_out_excess.mean = 1e-6;
   c.held_out_excess.stderr_of_mean = 2e-6;
-  EXPECT_THAT(PoseNotes(c), Contains(HasSubstr("5.5 mm rms")));
+  EXPECT_THAT(PoseNotes(plant.nominal, c), Contains(HasSubstr("5.5 mm rms")));
   EXPECT_THAT(Shortcomings(plant.nominal, c), IsEmpty());
 }
 

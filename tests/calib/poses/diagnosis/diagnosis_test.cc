@@ -3,10 +3,12 @@
 
 #include "calib/poses/diagnosis/diagnosis.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "calib/poses/diagnosis/report.h"
 #include "model/dynamics/forward_dynamics.h"
 #include "tests/fixtures/hidden_poses.h"
 
@@ -74,7 +76,7 @@ TEST(PoseDiagnosis, NamesOneEffectWithItsSize) {
 TEST(PoseDiagnosis, NamesTwoThatHideEachOther) {
   const HiddenPoses arm("UR5 6R", Instrument::kTargets, 1, 80, 12);
   const auto step = Stretch(Hidden("tool_step", 2e-3), 25);
-  const auto sag = Hidden("sag", -2e-3);
+  const auto sag = Hidden("sag", 2e-3);
   const PoseDiagnosis diagnosis = Diagnose(arm, {sag, step});
   const PoseFinding* found = Find(diagnosis, step);
   ASSERT_NE(found, nullptr);
@@ -82,6 +84,50 @@ TEST(PoseDiagnosis, NamesTwoThatHideEachOther) {
   EXPECT_NEAR(found->displacement_max, 2e-3, 2e-4);
   EXPECT_NE(Find(diagnosis, sag), nullptr);
   EXPECT_LT(diagnosis.gap.held_out_after, .1 * diagnosis.gap.held_out_geometry);
+}
+
+// Joints give way with their load. What moves them against it has another name,
+// or none.
+TEST(PoseDiagnosis, NoJointRisesUnderItsLoad) {
+  const HiddenPoses arm("UR5 6R", Instrument::kTargets, 1, 80, 12);
+  for (const double size : {2e-3, -2e-3}) {
+    const PoseDiagnosis diagnosis = Diagnose(arm, {Hidden("sag", size)});
+    EXPECT_EQ(Find(diagnosis, Hidden("sag", size)) != nullptr, size > 0);
+    for (const PoseFinding& finding : diagnosis.findings) {
+      const std::string& name = finding.placed.effect->name;
+      if (name.find("sag") == std::string::npos) continue;
+      if (name == "base_sag" || name == "tool_sag") continue;
+      for (const PoseAmount& amount : finding.amounts) {
+        EXPECT_GE(amount.value, 0) << name << " " << amount.name;
+      }
+    }
+  }
+}
+
+// The same arm by a file whose zeros are 5 degrees off: loads are those of
+// where joints stand, and so are findings.
+TEST(PoseDiagnosis, AZeroThatIsOffChangesNoFinding) {
+  const HiddenPoses arm("UR5 6R", Instrument::kTargets, 1, 80, 12);
+  const auto sag = Hidden("sag", 2e-3);
+  const PoseMeasurements m = arm.Measure({sag}, kNoise, 5);
+  PoseMeasurements off = m;
+  constexpr double kOff = 5 * M_PI / 180;
+  off.q.col(1).array() -= kOff;
+  const PoseDiagnosis by_file = DiagnosePoseGap(arm.nominal(), m, {});
+  const PoseDiagnosis by_other = DiagnosePoseGap(arm.nominal(), off, {});
+  const PoseFinding* a = Find(by_file, sag);
+  const PoseFinding* b = Find(by_other, sag);
+  ASSERT_TRUE(a && b);
+  ASSERT_EQ(a->amounts.size(), b->amounts.size());
+  for (size_t k = 0; k < a->amounts.size(); ++k) {
+    EXPECT_NEAR(a->amounts[k].value, b->amounts[k].value,
+                .1 * a->amounts[k].half_width + 2e-5)
+        << a->amounts[k].name;
+  }
+  EXPECT_NEAR(by_other.model.campaign.zeros[1], kOff, .02);
+  EXPECT_THAT(PoseDiagnosisReport(arm.nominal(), off, by_other),
+              testing::HasSubstr("zeros are off the robot file's: " +
+                                 arm.nominal().links[1].joint.name));
 }
 
 TEST(PoseDiagnosis, NamesTheStretchOfAMovedTarget) {

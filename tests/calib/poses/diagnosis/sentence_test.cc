@@ -57,6 +57,18 @@ TEST(PoseSentence, LacksWhatIsLikelierThanAllElse) {
                          "rms). Held-out"));
 }
 
+// A ratio of -1 within its interval is a sign.
+TEST(PoseSentence, KnowsAJointThatCountsTheOtherWay) {
+  PoseFinding turned = Found("gear_ratio", " of elbow", 1, 0);
+  turned.amounts.push_back({"k", "1", -2.0004, 5e-4});
+  EXPECT_THAT(Sentence({turned}),
+              StartsWith("The geometry lacks gear_ratio of elbow, which counts "
+                         "the other way (2 mm rms)."));
+  turned.amounts[0].value = -2.0006;
+  EXPECT_THAT(Sentence({turned}),
+              StartsWith("The geometry lacks gear_ratio of elbow (2 mm rms)."));
+}
+
 // What an arm has is to be corrected, what moved is to be measured again.
 TEST(PoseSentence, TellsWhatTheArmHasFromWhatChanged) {
   EXPECT_THAT(
