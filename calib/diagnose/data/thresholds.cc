@@ -121,11 +121,12 @@ const std::vector<ThresholdInfo> kAll = {
      "the misses and false alarms of calibration cases of seeds 303 and 304: "
      "25 before"},
     {"same_joint_share", &T::same_joint_share, "delta_chi2",
-     "One more effect has to explain this share of the strongest's delta "
-     "chi^2 on the joints on which it acts: laws' forms are never quite right",
+     "One more effect on a joint has to explain this share of the "
+     "strongest's delta chi^2 (of a body's: of that on the joints on which it "
+     "acts): laws' forms are never quite right",
      Kind::kTuned, "a prototype's simulated arm of six joints"},
     {"other_joint_share", &T::other_joint_share, "delta_chi2",
-     "The same of all of it where the strongest does not act", Kind::kTuned,
+     "The same elsewhere", Kind::kTuned,
      "a prototype's simulated arm of six joints"},
     {"most_effects", &T::most_effects, "effects", "More are not chosen",
      Kind::kDefinition, "what a report can hold"},

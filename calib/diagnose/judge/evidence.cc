@@ -130,13 +130,16 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
          !(one.effect->joint_term && HasMean(*other.effect, *one.effect));
 }
 
-// Stronger is what explains more than the k-th on the joints on which that
-// acts: an error of its form can be no larger there.
+// What could have made the k-th by an error of its form explains more. Of a
+// body, which acts on many joints, on those on which the k-th acts (IsLarge).
 bool GapEvidence::IsStrongerThere(size_t i, size_t k) const {
-  return DeltaChi2WhereActs(fit_.screen(), fit_.candidates(),
-                            fit_.selection().chosen, static_cast<int>(i),
-                            static_cast<int>(k)) >
-         fit_.selection().delta_chi2[k];
+  const std::vector<int>& chosen = fit_.selection().chosen;
+  const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
+  if (delta_chi2[i] <= delta_chi2[k]) return false;
+  if (!IsCarriedBody(*fit_.candidates()[chosen[i]].effect)) return true;
+  return DeltaChi2WhereActs(fit_.screen(), fit_.candidates(), chosen,
+                            static_cast<int>(i),
+                            static_cast<int>(k)) > delta_chi2[k];
 }
 
 // `odds` is the log odds of this effect at this place against the next best
@@ -167,7 +170,7 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
   const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
   for (size_t i = 0; i < delta_chi2.size(); ++i) {
-    if (delta_chi2[i] <= delta_chi2[k] || !IsStrongerThere(i, k)) continue;
+    if (!IsStrongerThere(i, k)) continue;
     ++evidence.stronger;
     evidence.stronger_beside += fit_.rows().num_joints() > 1 && IsBeside(i, k);
   }

@@ -7,17 +7,15 @@
 namespace armcal {
 namespace {
 
-bool ActsOn(const GapScreen& screen, const GapCandidate& candidate, int joint) {
-  return std::any_of(candidate.columns.begin(), candidate.columns.end(),
-                     [&](int c) { return screen.ActsOn(c, joint); });
-}
-
 // Of those joints that a candidate acts on.
 double SumWhereItActs(const GapScreen& screen, const GapCandidate& candidate,
                       const Eigen::VectorXd& of_joints) {
   double sum = 0;
   for (int j = 0; j < of_joints.size(); ++j) {
-    if (ActsOn(screen, candidate, j)) sum += of_joints[j];
+    const bool acts =
+        std::any_of(candidate.columns.begin(), candidate.columns.end(),
+                    [&](int c) { return screen.ActsOn(c, j); });
+    if (acts) sum += of_joints[j];
   }
   return sum;
 }
@@ -72,28 +70,28 @@ std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
 
 // The law of an effect is never exactly that of the robot. If its torque is
 // wrong by a share e, it leaves e^2 of its own delta_chi2 as structured
-// residual, on each joint of what it explains there, which other laws of the
-// same joint are the quickest to take up; so an addition has to explain
-// same_joint_share of what the strongest effect explains on the joints on which
-// the addition acts. A tool in the hand leaves its error at the shoulder and at
-// the elbow, which it moves, and little at the base, which it hardly does.
-// Where the strongest does not act, a wrong form reaches others through the
-// baseline only, and less of all that it explains is asked there. An effect of
-// the whole robot that is added to one of a joint is large if it meets the one,
-// or explains other_joint_share on the other joints alone.
+// residual, which other laws of the same joint are the quickest to take up; so
+// an addition on that joint has to explain same_joint_share of the strongest
+// effect. A wrong form on one joint reaches others through the baseline only,
+// and less is asked there. An effect of the whole robot that is added to one of
+// a joint is large if it meets the one, or explains other_joint_share on the
+// other joints alone. A body in the hand, whose torque is that of mechanics on
+// all joints that carry it, is off by the same share of what it explains on
+// each: an addition is held against what it explains on the joints on which the
+// addition acts, of which the base has little.
 bool IsLarge(const GapScreen& screen,
              const std::vector<GapCandidate>& candidates,
              const SelectionOptions& options, int strongest, int other,
              const GainOfMore& gain) {
   const int first = candidates[strongest].joint, own = candidates[other].joint;
   const double elsewhere = options.other_joint_share * gain.before;
-  if (own >= 0 && own != first && !ActsOn(screen, candidates[strongest], own)) {
-    return gain.gain >= elsewhere;
+  if (IsCarriedBody(*candidates[strongest].effect) && own >= 0) {
+    const double here =
+        SumWhereItActs(screen, candidates[other], gain.before_of_joints);
+    if (gain.gain >= options.same_joint_share * here) return true;
   }
-  const double here = own < 0 ? gain.before
-                              : SumWhereItActs(screen, candidates[other],
-                                               gain.before_of_joints);
-  if (gain.gain >= options.same_joint_share * here) return true;
+  if (first >= 0 && own >= 0 && own != first) return gain.gain >= elsewhere;
+  if (gain.gain >= options.same_joint_share * gain.before) return true;
   if (first < 0 || own >= 0 || gain.gain < elsewhere) return false;
   const Eigen::VectorXd of_joints =
       DeltaChi2OfJoints(screen, candidates, gain.fewer, gain.more);
