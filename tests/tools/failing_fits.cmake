@@ -85,4 +85,4 @@ expect_verdict("failed     the poses do not follow the joints")
 
 write_poses(still_poses.csv "$7 += 0.2 - $3; $10 += 0.2 - $3; $3 = 0.2")
 run("a joint that never moves in the poses" ${poses} --poses=still_poses.csv)
-expect_verdict("failed     lift never moves (by 0 m at most): its geometry")
+expect_verdict("failed     lift never moves (by 0 m at most): the geometry")

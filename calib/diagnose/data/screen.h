@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -60,12 +59,6 @@ class GapScreen {
   }
   double visible(int column) const {
     return raw(column) > 0 ? G_(column, column) / raw(column) : 0;
-  }
-
-  // Whether the column has rows of this joint.
-  bool ActsOn(int column, int joint) const {
-    const std::vector<int>& all = products_[joint].columns;
-    return std::binary_search(all.begin(), all.end(), column);
   }
 
   // What g would be with another target (whitened, per joint).

@@ -122,8 +122,7 @@ const std::vector<ThresholdInfo> kAll = {
      "25 before"},
     {"same_joint_share", &T::same_joint_share, "delta_chi2",
      "One more effect on a joint has to explain this share of the "
-     "strongest's delta chi^2 (of a body's: of that on the joints on which it "
-     "acts): laws' forms are never quite right",
+     "strongest's delta chi^2: laws' forms are never quite right",
      Kind::kTuned, "a prototype's simulated arm of six joints"},
     {"other_joint_share", &T::other_joint_share, "delta_chi2",
      "The same elsewhere", Kind::kTuned,

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/form_error.h"
 
 namespace armcal {
 namespace {
@@ -130,18 +129,6 @@ bool GapEvidence::IsBeside(size_t i, size_t k) const {
          !(one.effect->joint_term && HasMean(*other.effect, *one.effect));
 }
 
-// What could have made the k-th by an error of its form explains more. Of a
-// body, which acts on many joints, on those on which the k-th acts (IsLarge).
-bool GapEvidence::IsStrongerThere(size_t i, size_t k) const {
-  const std::vector<int>& chosen = fit_.selection().chosen;
-  const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
-  if (delta_chi2[i] <= delta_chi2[k]) return false;
-  if (!IsCarriedBody(*fit_.candidates()[chosen[i]].effect)) return true;
-  return DeltaChi2WhereActs(fit_.screen(), fit_.candidates(), chosen,
-                            static_cast<int>(i),
-                            static_cast<int>(k)) > delta_chi2[k];
-}
-
 // `odds` is the log odds of this effect at this place against the next best
 // one, by a softmax of scores at the temperature T: scores are on the scale of
 // chi squared, of which half is a log likelihood, and T corrects that neither
@@ -170,7 +157,7 @@ EffectEvidence GapEvidence::ForEffect(
   evidence.strength = std::log(std::max(1., fit_.selection().delta_chi2[k]));
   const std::vector<double>& delta_chi2 = fit_.selection().delta_chi2;
   for (size_t i = 0; i < delta_chi2.size(); ++i) {
-    if (!IsStrongerThere(i, k)) continue;
+    if (delta_chi2[i] <= delta_chi2[k]) continue;
     ++evidence.stronger;
     evidence.stronger_beside += fit_.rows().num_joints() > 1 && IsBeside(i, k);
   }

@@ -17,10 +17,10 @@ struct EffectEvidence {
   double odds_of_any = 0, share_of_any = 1;
   double strength = 0;  // ln of its delta chi^2
   int chosen = 1;       // how many effects were, all events being one
-  // How many of the others are stronger (of bodies: on the joints on which it
-  // acts), and of these on its joint (if it has one), a law and its mean being
-  // one, where the robot has several: what the form of a strong effect has
-  // wrong looks like weaker ones, not the other way round.
+  // How many of the others are stronger, and of these on its joint (if it has
+  // one), a law and its mean being one, where the robot has several: what the
+  // form of a strong effect has wrong looks like weaker ones, not the other way
+  // round.
   int stronger = 0, stronger_beside = 0;
   double next = 0;       // score of the best further candidate, at least 0
   int events = 0;        // windows of it, of what comes and goes
@@ -55,7 +55,6 @@ class GapEvidence {
   // Whether the i-th effect is on the joint of the k-th, the two not being a
   // law and its mean.
   bool IsBeside(size_t i, size_t k) const;
-  bool IsStrongerThere(size_t i, size_t k) const;
 
   const GapFit& fit_;
   const HeldOut& held_out_;

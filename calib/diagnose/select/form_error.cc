@@ -7,45 +7,26 @@
 namespace armcal {
 namespace {
 
-// Of those joints that a candidate acts on.
-double SumWhereItActs(const GapScreen& screen, const GapCandidate& candidate,
-                      const Eigen::VectorXd& of_joints) {
-  double sum = 0;
-  for (int j = 0; j < of_joints.size(); ++j) {
-    const bool acts =
-        std::any_of(candidate.columns.begin(), candidate.columns.end(),
-                    [&](int c) { return screen.ActsOn(c, j); });
-    if (acts) sum += of_joints[j];
-  }
-  return sum;
-}
-
-}  // namespace
-
+// How much of what `more` explain beyond `fewer` is on other joints than this.
 // Chi squared is a sum over joints, whose noise is independent, so that it can
 // be told joint by joint; only the baseline connects them.
-Eigen::VectorXd DeltaChi2OfJoints(const GapScreen& screen,
-                                  const std::vector<GapCandidate>& candidates,
-                                  const std::vector<int>& fewer,
-                                  const std::vector<int>& more) {
+double DeltaChi2Elsewhere(const GapScreen& screen,
+                          const std::vector<GapCandidate>& candidates,
+                          const std::vector<int>& fewer,
+                          const std::vector<int>& more, int joint) {
   const JointRows before =
       screen.Residuals(screen.Solve(ColumnsOf(candidates, fewer)));
   const JointRows after =
       screen.Residuals(screen.Solve(ColumnsOf(candidates, more)));
-  Eigen::VectorXd delta_chi2(screen.num_joints());
+  double delta_chi2 = 0;
   for (int j = 0; j < screen.num_joints(); ++j) {
-    delta_chi2[j] = before[j].squaredNorm() - after[j].squaredNorm();
+    if (j == joint) continue;
+    delta_chi2 += before[j].squaredNorm() - after[j].squaredNorm();
   }
   return delta_chi2;
 }
 
-double DeltaChi2WhereActs(const GapScreen& screen,
-                          const std::vector<GapCandidate>& candidates,
-                          const std::vector<int>& chosen, int i, int k) {
-  return SumWhereItActs(
-      screen, candidates[chosen[k]],
-      DeltaChi2OfJoints(screen, candidates, Without(chosen, i), chosen));
-}
+}  // namespace
 
 double TotalDeltaChi2(const GapScreen& screen,
                       const std::vector<GapCandidate>& candidates,
@@ -75,27 +56,18 @@ std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
 // effect. A wrong form on one joint reaches others through the baseline only,
 // and less is asked there. An effect of the whole robot that is added to one of
 // a joint is large if it meets the one, or explains other_joint_share on the
-// other joints alone. A body in the hand, whose torque is that of mechanics on
-// all joints that carry it, is off by the same share of what it explains on
-// each: an addition is held against what it explains on the joints on which the
-// addition acts, of which the base has little.
+// other joints alone.
 bool IsLarge(const GapScreen& screen,
              const std::vector<GapCandidate>& candidates,
              const SelectionOptions& options, int strongest, int other,
              const GainOfMore& gain) {
   const int first = candidates[strongest].joint, own = candidates[other].joint;
   const double elsewhere = options.other_joint_share * gain.before;
-  if (IsCarriedBody(*candidates[strongest].effect) && own >= 0) {
-    const double here =
-        SumWhereItActs(screen, candidates[other], gain.before_of_joints);
-    if (gain.gain >= options.same_joint_share * here) return true;
-  }
   if (first >= 0 && own >= 0 && own != first) return gain.gain >= elsewhere;
   if (gain.gain >= options.same_joint_share * gain.before) return true;
-  if (first < 0 || own >= 0 || gain.gain < elsewhere) return false;
-  const Eigen::VectorXd of_joints =
-      DeltaChi2OfJoints(screen, candidates, gain.fewer, gain.more);
-  return of_joints.sum() - of_joints[first] >= elsewhere;
+  return first >= 0 && own < 0 && gain.gain >= elsewhere &&
+         DeltaChi2Elsewhere(screen, candidates, gain.fewer, gain.more, first) >=
+             elsewhere;
 }
 
 // Two conditions on every member but the strongest: given all the others it
@@ -113,21 +85,16 @@ bool AreLarge(const GapScreen& screen,
   const int strongest = more[most - delta_chi2.begin()];
   const double before = TotalDeltaChi2(screen, candidates, fewer);
   const double gain = TotalDeltaChi2(screen, candidates, more) - before;
-  const Eigen::VectorXd of_strongest = DeltaChi2OfJoints(
-      screen, candidates,
-      Without(more, static_cast<int>(most - delta_chi2.begin())), more);
-  const Eigen::VectorXd of_fewer =
-      DeltaChi2OfJoints(screen, candidates, {}, fewer);
   for (int k = 0; k < static_cast<int>(more.size()); ++k) {
     if (more[k] == strongest) continue;
     const std::vector<int> others = Without(more, k);
     if (!IsLarge(screen, candidates, options, strongest, more[k],
-                 {others, more, delta_chi2[k], *most, of_strongest})) {
+                 {others, more, delta_chi2[k], *most})) {
       return false;
     }
     const bool is_new = std::count(fewer.begin(), fewer.end(), more[k]) == 0;
     if (is_new && !IsLarge(screen, candidates, options, strongest, more[k],
-                           {fewer, more, gain, before, of_fewer})) {
+                           {fewer, more, gain, before})) {
       return false;
     }
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "calib/diagnose/candidates/candidates.h"
@@ -21,24 +20,10 @@ std::vector<double> DeltaChi2OfEach(const GapScreen& screen,
                                     const std::vector<GapCandidate>& candidates,
                                     const std::vector<int>& chosen);
 
-// By which chi^2 of each joint's rows falls from one set to the other; what
-// values cost by their prior is no joint's.
-Eigen::VectorXd DeltaChi2OfJoints(const GapScreen& screen,
-                                  const std::vector<GapCandidate>& candidates,
-                                  const std::vector<int>& fewer,
-                                  const std::vector<int>& more);
-
-// By which chi^2 of the joints on which the k-th of them acts rises when the
-// i-th is left out: what an error of the i-th's form can be there.
-double DeltaChi2WhereActs(const GapScreen& screen,
-                          const std::vector<GapCandidate>& candidates,
-                          const std::vector<int>& chosen, int i, int k);
-
 // What one more effect explains.
 struct GainOfMore {
   const std::vector<int>&fewer, &more;
   double gain, before;  // of chi^2, by `more` given `fewer`, by those before
-  Eigen::VectorXd before_of_joints;  // `before` by joints
 };
 
 // Whether that is more than an error in the form of the strongest would be,

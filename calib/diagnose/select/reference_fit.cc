@@ -1,8 +1,6 @@
 #include "calib/diagnose/select/reference_fit.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 #include "calib/diagnose/data/noise.h"
@@ -15,42 +13,35 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Rounds of a fit and the noise that it leaves. Of a reference a few: its own
-// values become the next prior's mean (FitReference). Of a log without one they
-// end where nothing changes: what a prior's pull towards a file that is far off
-// leaves falls by a factor from one to the next.
-constexpr int kRounds = 3, kMostRounds = 20;
-constexpr double kSigmaSettled = .01;  // of a standard deviation
+// Rounds of a fit and the noise that it leaves.
+constexpr int kRounds = 3;
+// A file may be far off, and what the prior of a few per cent around its values
+// held there would pass for noise: to tell that, values are as uncertain as
+// they are large, this times the trust in a file.
+constexpr double kWide = 20;
 
-// With the first `columns` of the baseline, those behind them held at 0.
-VectorXd Refit(const GapData& data, int columns) {
+// With the first `columns` of the baseline, those behind them held at 0, whose
+// prior is so much wider.
+VectorXd Refit(const GapData& data, int columns, double wide) {
   GapScreen screen = data.Screen(columns);
+  if (wide != 1) {
+    std::vector<int> all(columns);
+    std::iota(all.begin(), all.end(), 0);
+    screen.ScaleBaseline(all, wide);
+  }
   screen.Factor();
   VectorXd x = VectorXd::Zero(data.num_columns());
-  x.head(columns) = screen.BaselineGiven(JointRows(data.rows().num_joints()));
+  x.head(columns) =
+      wide * screen.BaselineGiven(JointRows(data.rows().num_joints()));
   return x;
 }
 
-double ChangeOfSigma(const std::vector<Autoregression>& before,
-                     const std::vector<Autoregression>& after) {
-  double most = 0;
-  for (size_t j = 0; j < after.size(); ++j) {
-    if (!(after[j].sigma > 0)) continue;
-    most = std::max(most, std::abs(before[j].sigma / after[j].sigma - 1));
-  }
-  return most;
-}
-
-VectorXd FitFirstWithNoise(int columns, int rounds, GapData* data) {
-  std::vector<Autoregression> noise = WhiteNoise(data->residual());
-  data->SetNoise(noise);
-  VectorXd x = Refit(*data, columns);
-  for (int round = 0; round < rounds; ++round) {
-    const std::vector<Autoregression> before = std::move(noise);
-    noise = WhiteNoise(Moving(data->rows(), data->ResidualWith(x)));
-    data->SetNoise(noise);
-    x = Refit(*data, columns);
-    if (ChangeOfSigma(before, noise) < kSigmaSettled) break;
+VectorXd FitFirstWithNoise(int columns, double wide, GapData* data) {
+  data->SetNoise(WhiteNoise(data->residual()));
+  VectorXd x = Refit(*data, columns, wide);
+  for (int round = 0; round < kRounds; ++round) {
+    data->SetNoise(WhiteNoise(Moving(data->rows(), data->ResidualWith(x))));
+    x = Refit(*data, columns, wide);
   }
   return x;
 }
@@ -66,15 +57,15 @@ MatrixXd Moving(const GapRows& rows, const MatrixXd& residual) {
 }
 
 VectorXd FitWithNoise(GapData* data) {
-  return FitFirstWithNoise(data->num_columns(), kRounds, data);
+  return FitFirstWithNoise(data->num_columns(), 1, data);
 }
 
 VectorXd FitModel(const GapBaseline& baseline, const GapData& data) {
-  return Refit(data, baseline.num_model_columns());
+  return Refit(data, baseline.num_model_columns(), 1);
 }
 
 VectorXd FitModelWithNoise(const GapBaseline& baseline, GapData* data) {
-  return FitFirstWithNoise(baseline.num_model_columns(), kMostRounds, data);
+  return FitFirstWithNoise(baseline.num_model_columns(), kWide, data);
 }
 
 }  // namespace armcal

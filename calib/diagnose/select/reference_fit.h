@@ -13,8 +13,9 @@ namespace armcal {
 // would trade what is large for what is quick: what a model lacks is no noise.
 Eigen::VectorXd FitWithNoise(GapData* data);
 // The model's own columns are fitted alone, those of the discrepancy held at 0:
-// what a robot file can hold. By the weights that the data have; and likewise
-// by what it leaves.
+// what a robot file can hold. By the weights that the data have and within the
+// file's prior; and likewise by what it leaves, of values that the file hardly
+// holds.
 Eigen::VectorXd FitModel(const GapBaseline& baseline, const GapData& data);
 Eigen::VectorXd FitModelWithNoise(const GapBaseline& baseline, GapData* data);
 

@@ -86,7 +86,6 @@ VectorXd LargeScores(const GapScreen& screen,
       set[std::max_element(delta_chi2.begin(), delta_chi2.end()) -
           delta_chi2.begin()];
   const double before = TotalDeltaChi2(screen, candidates, set);
-  const VectorXd of_joints = DeltaChi2OfJoints(screen, candidates, {}, set);
   std::vector<int> more = set;
   more.push_back(0);
   for (size_t i = 0; i < candidates.size(); ++i) {
@@ -95,7 +94,7 @@ VectorXd LargeScores(const GapScreen& screen,
     const double gain =
         options.inflation * (scores[i] + Penalty(screen, candidates[i]));
     if (!IsLarge(screen, candidates, options, strongest, more.back(),
-                 {set, more, gain, before, of_joints})) {
+                 {set, more, gain, before})) {
       scores[i] = kNever;
     }
   }

@@ -95,7 +95,11 @@ TEST_F(SeparatingPostures, PredictTheScatterOfEstimates) {
       (squares / kDraws).cwiseSqrt().cwiseQuotient(design.stddev);
   // 40 draws know a standard deviation to 11 %; 1.5 is 4.5 of that.
   EXPECT_LT(ratio.maxCoeff(), 1.5);
-  EXPECT_GT(ratio.minCoeff(), .6);
+  // A compliance, which is 0 here, is no less than that: it scatters by less.
+  for (int k = 0; k < ratio.size(); ++k) {
+    const bool is_sag = design.names[k].rfind("sag", 0) == 0;
+    EXPECT_GT(ratio[k], is_sag ? 0 : .6) << design.names[k];
+  }
 }
 
 TEST_F(SeparatingPostures, AreRefusedForWhatIsNoneOfPostures) {

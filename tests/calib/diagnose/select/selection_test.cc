@@ -3,8 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 
-#include "tests/calib/diagnose/select/selected_columns.h"
+#include "tests/fixtures/sample_motion.h"
 
 namespace armcal::selection_test {
 
@@ -14,7 +15,69 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-using GapSelectionTest = SelectedColumns;
+constexpr int kRows = 1000;  // of each of two joints
+
+VectorXd Noise(std::mt19937_64* random, double size = 1) {
+  VectorXd x(kRows);
+  for (double& value : x) value = size * Normal(random);
+  return x;
+}
+
+// Effects that are columns, beside a baseline of one constant that is known.
+class GapSelectionTest : public testing::Test {
+ protected:
+  GapSelectionTest() : effects_(20), target_(2, VectorXd::Zero(kRows)) {
+    for (Effect& effect : effects_) effect.parameters.resize(1);
+  }
+
+  // The k-th effect's next shape on a joint.
+  int Add(int effect, int joint, const VectorXd& column, int tried = 1) {
+    GapCandidate candidate;
+    candidate.effect = &effects_[effect];
+    candidate.joint = joint;
+    candidate.linear = {0};
+    candidate.tried = tried;
+    candidate.columns = {static_cast<int>(columns_.size())};
+    JointRows rows(2);
+    rows[joint] = column;
+    columns_.push_back(rows);
+    candidates_.push_back(candidate);
+    return static_cast<int>(candidates_.size()) - 1;
+  }
+  // Each an effect of its own on joint 1.
+  void AddRandom(int count) {
+    for (int k = 0; k < count; ++k) Add(k, 0, Noise(&random_));
+  }
+  // A second linear parameter of the candidate's effect, and its column.
+  VectorXd AddPart(int candidate) {
+    const VectorXd column = Noise(&random_);
+    GapCandidate& law = candidates_[candidate];
+    law.linear = {0, 1};
+    law.columns.push_back(static_cast<int>(columns_.size()));
+    columns_.push_back({column, {}});
+    effects_[candidate].parameters.resize(2);
+    return column;
+  }
+  GapScreen Screen() const {
+    const MatrixXd baseline = MatrixXd::Constant(kRows, 1, 1e-3);
+    GapScreen screen(OnEachJoint({baseline, baseline}), 1, target_);
+    for (const JointRows& column : columns_) screen.AddColumn(column);
+    screen.Factor();
+    return screen;
+  }
+  Selection Select(const SelectionOptions& options = {}) const {
+    return SelectEffects(Screen(), candidates_, options);
+  }
+  const VectorXd& Column(int candidate) const {
+    return columns_[candidate][candidates_[candidate].joint];
+  }
+
+  std::mt19937_64 random_{7};
+  std::vector<Effect> effects_;
+  std::vector<GapCandidate> candidates_;
+  std::vector<JointRows> columns_;
+  JointRows target_;
+};
 
 // One that explains most alone, and one that explains most of its rest, are no
 // two that explain all: no single exchange leads from those to these.
@@ -199,6 +262,53 @@ TEST_F(GapSelectionTest, AFittedShapeIsPaidFor) {
   EXPECT_NEAR(RefinedPenalty(screen, candidates_[0], 3), 3 * row, 1e-9);
   EXPECT_NEAR(RefinedPenalty(screen, candidates_[0], 1), row + 2 * std::log(9),
               1e-9);
+}
+
+// Where one effect stands already, its form is never quite right.
+TEST_F(GapSelectionTest, ASmallOneCountsOnAnotherJointOnly) {
+  VectorXd large = VectorXd::Zero(kRows), small = large;
+  large.head(100).setConstant(10);  // delta chi^2 10000
+  small.tail(100).setConstant(1);   // delta chi^2 100, 1 %
+  Add(0, 0, large);
+  const int same = Add(1, 0, small);
+  target_[0] = large + small;
+  EXPECT_THAT(Select().chosen, ElementsAre(0));
+  candidates_[same].joint = 1;
+  std::swap(columns_[same][0], columns_[same][1]);
+  target_ = {large, small};
+  EXPECT_THAT(Select().chosen, ElementsAre(0, same));
+}
+
+// A law beside its mean on one joint: that the two are large does not make a
+// third on another joint too small.
+TEST_F(GapSelectionTest, OnlyWhatIsNewHasToBeLarge) {
+  AddRandom(2);
+  const int other = Add(2, 1, Noise(&random_));
+  target_[0] = 3 * Column(0) + 2 * Column(1);
+  target_[1] = .4 * Column(other);  // 1 % of it
+  EXPECT_THAT(Select().chosen, UnorderedElementsAre(0, 1, other));
+}
+
+// What the whole robot shows is no error of form where other joints show it.
+TEST_F(GapSelectionTest, AnEffectOfTheRobotIsJudgedByOtherJoints) {
+  AddRandom(1);
+  const int robot = Add(1, 0, Noise(&random_));
+  candidates_[robot].joint = -1;
+  target_[0] = 3 * Column(0) + .3 * columns_[robot][0];
+  EXPECT_THAT(Select().chosen, ElementsAre(0));  // 1 %, all of it there
+  columns_[robot][1] = Noise(&random_);
+  target_[1] = .3 * columns_[robot][1];
+  EXPECT_THAT(Select().chosen, ElementsAre(0, robot));
+}
+
+// The form of the first is not quite right; what that leaves on its joint is
+// more than another joint's effect, and less than an effect.
+TEST_F(GapSelectionTest, AnErrorOfFormDoesNotEndTheSearch) {
+  AddRandom(2);
+  const int other = Add(2, 1, Noise(&random_));
+  target_[0] = 10 * Column(0) + Column(1);
+  target_[1] = .8 * Column(other);
+  EXPECT_THAT(Select().chosen, UnorderedElementsAre(0, other));
 }
 
 TEST_F(GapSelectionTest, ScoresOfWhatCouldStandInAPlace) {
