@@ -27,7 +27,6 @@ class GapData {
   GapData& operator=(const GapData&) = delete;
 
   const GapRows& rows() const { return *rows_; }
-  int num_columns() const { return num_columns_; }  // of the baseline
   std::vector<RecordedTorque>* mutable_torques() { return &torques_; }
   const std::vector<RecordedTorque>& torques() const { return torques_; }
   // Recorded minus nominal torque, thinned samples x n, N m or N.

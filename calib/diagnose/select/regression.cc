@@ -8,7 +8,6 @@
 #include "calib/diagnose/data/motion_scale.h"
 #include "calib/diagnose/data/position_noise.h"
 #include "calib/diagnose/data/thresholds.h"
-#include "calib/diagnose/select/reference_fit.h"
 #include "calib/diagnose/select/reference_folds.h"
 #include "calib/diagnose/select/reference_noise.h"
 
@@ -20,6 +19,17 @@ using Eigen::VectorXd;
 
 // Standard deviations of a change from log to log that is usual.
 constexpr double kUsual = 3;
+
+// The model's own columns are fitted alone, those of the discrepancy held at 0:
+// what a robot file can hold, as it is before anything is diagnosed.
+VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
+  GapScreen screen = data.Screen(baseline.num_model_columns());
+  screen.Factor();
+  VectorXd x = VectorXd::Zero(baseline.size());
+  x.head(baseline.num_model_columns()) =
+      screen.BaselineGiven(JointRows(data.rows().num_joints()));
+  return x;
+}
 
 // White noise of what a robot as its file has it leaves.
 VectorXd Start(const GapData& data) {
@@ -148,9 +158,10 @@ void GapRegression::EstimateNoise() {
     reference_->MoveFrictionByDelays(baseline_, before_);
     data_->MoveFrictionByDelays(baseline_, before_);
   } else if (noise_.source != NoiseFloor::kPositions) {
-    const VectorXd x = FitModelWithNoise(baseline_, data_.get());
-    noise_ = EstimateGapNoise(data_->rows(), data_->FineResidual(),
-                              data_->ResidualWith(x));
+    data_->SetNoise(WhiteNoise(data_->residual()));
+    noise_ =
+        EstimateGapNoise(data_->rows(), data_->FineResidual(),
+                         data_->ResidualWith(RefitModel(baseline_, *data_)));
   }
   DistrustOtherMotion(data_.get());
   data_->SetNoise(noise_.joints);
@@ -170,7 +181,7 @@ void GapRegression::SettleReference() {
       WeighReference();
     }
   }
-  before_ = FitModel(baseline_, *reference_);
+  before_ = RefitModel(baseline_, *reference_);
 }
 
 MatrixXd GapRegression::CovarianceBefore() const {
