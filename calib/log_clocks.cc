@@ -47,10 +47,7 @@ Eigen::VectorXd TimeOfAllRows(const Eigen::VectorXd& all,
                               const Eigen::VectorXd& told) {
   std::vector<Eigen::Index> rows;  // that are told
   for (Eigen::Index k = 0; k < all.size(); ++k) {
-    const bool is_left_out =
-        std::any_of(left_out.begin(), left_out.end(),
-                    [k](const RowRange& range) { return range.Contains(k); });
-    if (!is_left_out) rows.push_back(k);
+    if (!AnyContains(left_out, k)) rows.push_back(k);
   }
   const Eigen::Index last = told.size() - 1;
   const double rate =

@@ -89,10 +89,7 @@ CommandedLog CommandedRows(const std::string& path, const Log& all,
     const bool repeated =
         !commands.empty() && all.t[k] <= all.t[commands.back()];
     if (!crop.Contains(all.t[k]) || repeated) continue;
-    const bool is_right =
-        std::none_of(left_out.begin(), left_out.end(),
-                     [k](const RowRange& range) { return range.Contains(k); });
-    if (is_right) rows.push_back(k);
+    if (!AnyContains(left_out, k)) rows.push_back(k);
     if (!rows.empty()) commands.push_back(k);
   }
   if (rows.empty() || all.t[rows.back()] - all.t[rows.front()] <= kCatchUp) {

@@ -105,16 +105,11 @@ std::vector<RowRange> UsedRows(const LogParts& parts,
 // between rows that follow each other.
 bool IsTimeLeft(const std::vector<RowRange>& used, const Eigen::VectorXd& t,
                 const std::vector<RowRange>& left_out) {
-  const auto is_left = [&](long row) {
-    return std::none_of(
-        left_out.begin(), left_out.end(),
-        [row](const RowRange& rows) { return rows.Contains(row); });
-  };
   return std::all_of(used.begin(), used.end(), [&](const RowRange& part) {
     double left = 0;
     bool loses = false, before = false;
     for (long k = part.begin; k < part.end; ++k) {
-      const bool now = is_left(k);
+      const bool now = !AnyContains(left_out, k);
       loses = loses || !now;
       if (before && now) left += t[k] - t[k - 1];
       before = now;

@@ -4,16 +4,17 @@
 
 namespace armcal {
 
+bool AnyContains(const std::vector<RowRange>& ranges, long row) {
+  return std::any_of(
+      ranges.begin(), ranges.end(),
+      [row](const RowRange& range) { return range.Contains(row); });
+}
+
 Log WithoutRows(const Log& log, const std::vector<RowRange>& left_out,
                 long first) {
   std::vector<int> rows;
   for (int k = 0; k < log.size(); ++k) {
-    const auto has_it = [&](const RowRange& range) {
-      return range.Contains(first + k);
-    };
-    if (std::none_of(left_out.begin(), left_out.end(), has_it)) {
-      rows.push_back(k);
-    }
+    if (!AnyContains(left_out, first + k)) rows.push_back(k);
   }
   Log kept = log;
   kept.t = log.t(rows).eval();
@@ -42,10 +43,7 @@ RowRange CountedInAll(const RowRange& rows,
   RowRange all;
   long kept = 0;
   for (long row = 0; kept < rows.end; ++row) {
-    const auto has_it = [row](const RowRange& range) {
-      return range.Contains(row);
-    };
-    if (std::any_of(left_out.begin(), left_out.end(), has_it)) continue;
+    if (AnyContains(left_out, row)) continue;
     if (kept == rows.begin) all.begin = row;
     ++kept;
     all.end = row + 1;

@@ -13,6 +13,9 @@ struct RowRange {
   bool Contains(long row) const { return row >= begin && row < end; }
 };
 
+// Whether one of them contains the row.
+bool AnyContains(const std::vector<RowRange>& ranges, long row);
+
 // The log without these rows; `first` is the number of its own first one. Their
 // time stays: there is a hole in the stamps then.
 Log WithoutRows(const Log& log, const std::vector<RowRange>& left_out,

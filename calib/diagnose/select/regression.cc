@@ -20,11 +20,16 @@ using Eigen::VectorXd;
 // Standard deviations of a change from log to log that is usual.
 constexpr double kUsual = 3;
 
-// The model's own columns are fitted alone, those of the discrepancy held at 0:
-// what a robot file can hold, as it is before anything is diagnosed.
-VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
+// The model's own columns alone, those of the discrepancy held at 0: what a
+// robot file can hold, as it is before anything is diagnosed.
+GapScreen ModelScreen(const GapBaseline& baseline, const GapData& data) {
   GapScreen screen = data.Screen(baseline.num_model_columns());
   screen.Factor();
+  return screen;
+}
+
+VectorXd RefitModel(const GapBaseline& baseline, const GapData& data) {
+  const GapScreen screen = ModelScreen(baseline, data);
   VectorXd x = VectorXd::Zero(baseline.size());
   x.head(baseline.num_model_columns()) =
       screen.BaselineGiven(JointRows(data.rows().num_joints()));
@@ -187,9 +192,7 @@ void GapRegression::SettleReference() {
 MatrixXd GapRegression::CovarianceBefore() const {
   const int columns = baseline_.num_model_columns();
   if (!reference_) return MatrixXd::Zero(columns, columns);
-  GapScreen screen = reference_->Screen(columns);
-  screen.Factor();
-  return screen.BaselineCovariance();
+  return ModelScreen(baseline_, *reference_).BaselineCovariance();
 }
 
 // Once the size of what models lack is told as well.
